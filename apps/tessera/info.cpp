@@ -1,0 +1,160 @@
+// `tessera info`: what a scene holds.
+#include "commands.h"
+#include "console.h"
+#include "load_scene.h"
+#include "tessera/scene.h"
+
+#include <cmath>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+namespace tessera::program {
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+// The float as it would be typed: as a double 2.6 would print as 2.5999999046325684.
+Json jsonOf(float value) { return std::isfinite(value) ? Json::parse(shortest(value)) : Json(); }
+
+Json jsonOf(const glm::vec3& v) { return {jsonOf(v.x), jsonOf(v.y), jsonOf(v.z)}; }
+
+Json jsonOf(const Transform& transform) {
+    const glm::quat& q = transform.rotation;
+    return {{"translation", jsonOf(transform.translation)}, {"rotation", {jsonOf(q.w), jsonOf(q.x), jsonOf(q.y), jsonOf(q.z)}}};
+}
+
+std::string textOf(const glm::vec3& v) {
+    const glm::vec3 unsignedZeros = v + 0.0F;
+    return "(" + shortest(unsignedZeros.x) + " " + shortest(unsignedZeros.y) + " " + shortest(unsignedZeros.z) + ")";
+}
+
+// The world direction of the local -z axis, to six decimals: where cameras look and directional lights shine.
+glm::vec3 forward(const Transform& transform) {
+    const glm::dvec3 direction = rotationMatrix(transform) * glm::dvec3(0.0, 0.0, -1.0);
+    return glm::vec3(glm::round(direction * 1e6) / 1e6);
+}
+
+std::string_view name(MaterialKind kind) { return kind == MaterialKind::matte ? "matte" : "plastic"; }
+
+// Patches over all objects, by kind: what is rendered, so a mesh counts once an object that uses it.
+std::map<std::string, std::uint64_t> placedPatches(const Scene& scene) {
+    std::map<std::string, std::uint64_t> patches;
+    for (const Object& object : scene.objects) {
+        const Mesh* mesh = scene.findMesh(object.mesh);
+        if (mesh != nullptr) patches[std::string(name(mesh->kind))] += mesh->patchCount();
+    }
+    return patches;
+}
+
+Json objectJson(const Scene& scene, const Object& object) {
+    const Mesh* mesh = scene.findMesh(object.mesh);
+    Json json = {{"name", object.name},
+                 {"mesh", object.mesh},
+                 {"type", mesh == nullptr ? Json() : Json(std::string(name(mesh->kind)))},
+                 {"patches", mesh == nullptr ? 0 : mesh->patchCount()},
+                 {"color", jsonOf(object.color)},
+                 {"transform", jsonOf(object.transform)}};
+    json["material"] = {{"type", std::string(name(object.material.kind))},
+                        {"specular", jsonOf(object.material.specular)},
+                        {"roughness", jsonOf(object.material.roughness)}};
+    return json;
+}
+
+std::string infoJson(const LoadedScene& loaded) {
+    const Scene& scene = loaded.scene;
+    const Bounds bounds = worldBounds(scene);
+    Json json = {{"scene", scene.name}, {"patches", scene.placedPatchCount()}, {"patch_types", Json::object()}};
+    for (const auto& [kind, count] : placedPatches(scene)) json["patch_types"][kind] = count;
+    json["bounds"] = bounds.empty() ? Json() : Json{{"lower", jsonOf(bounds.lower)}, {"upper", jsonOf(bounds.upper)}};
+    for (const auto* list : {"cameras", "lights", "objects", "meshes"}) json[list] = Json::array();
+    for (const Camera& camera : scene.cameras) {
+        json["cameras"].push_back({{"name", camera.name},
+                                   {"transform", jsonOf(camera.transform)},
+                                   {"near", jsonOf(camera.near)},
+                                   {"far", jsonOf(camera.far)},
+                                   {"fovy", jsonOf(camera.fovy)}});
+    }
+    for (const Light& light : scene.lights) {
+        json["lights"].push_back({{"name", light.name},
+                                  {"type", std::string(name(light.kind))},
+                                  {"color", jsonOf(light.color)},
+                                  {"intensity", jsonOf(light.intensity)},
+                                  {"transform", jsonOf(light.transform)}});
+    }
+    for (const Object& object : scene.objects) json["objects"].push_back(objectJson(scene, object));
+    for (const Mesh& mesh : scene.meshes) {
+        json["meshes"].push_back({{"name", mesh.name}, {"type", std::string(name(mesh.kind))}, {"patches", mesh.patchCount()}});
+    }
+    json["warnings"] = loaded.warnings;
+    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::string cameraText(const Camera& camera) {
+    return "camera  '" + oneLine(camera.name) + "' at " + textOf(camera.transform.translation) + " looking along " +
+           textOf(forward(camera.transform)) + ", fovy " + shortest(camera.fovy) + " degrees, near " + shortest(camera.near) + ", far " +
+           shortest(camera.far) + "\n";
+}
+
+std::string lightText(const Light& light) {
+    std::string place;
+    if (light.kind == LightKind::point) place = " at " + textOf(light.transform.translation);
+    if (light.kind == LightKind::directional) place = " shining along " + textOf(forward(light.transform));
+    if (light.kind == LightKind::hemi) place = " around " + textOf(-forward(light.transform));
+    return "light   '" + oneLine(light.name) + "', " + std::string(name(light.kind)) + place + ", color " + textOf(light.color) +
+           ", intensity " + shortest(light.intensity) + "\n";
+}
+
+std::string objectText(const Scene& scene, const Object& object) {
+    const Mesh* mesh = scene.findMesh(object.mesh);
+    std::string patches = "no patches";
+    if (mesh != nullptr) patches = counted(mesh->patchCount(), "patch", "patches") + " of type " + std::string(name(mesh->kind));
+    return "object  '" + oneLine(object.name) + "' of mesh '" + oneLine(object.mesh) + "', " + patches + ", " +
+           std::string(name(object.material.kind)) + ", color " + textOf(object.color) + ", at " + textOf(object.transform.translation) +
+           "\n";
+}
+
+std::string infoText(const Scene& scene) {
+    std::string text = "scene   " + oneLine(scene.name) + "\npatches " + std::to_string(scene.placedPatchCount());
+    std::string separator = ": ";
+    for (const auto& [kind, count] : placedPatches(scene)) {
+        text += separator + std::to_string(count) + " " + kind;
+        separator = ", ";
+    }
+    const Bounds bounds = worldBounds(scene);
+    text += "\nbounds  " + (bounds.empty() ? std::string("empty") : textOf(bounds.lower) + " to " + textOf(bounds.upper)) + "\n";
+    for (const Camera& camera : scene.cameras) text += cameraText(camera);
+    if (scene.cameras.empty()) text += "camera  none: a picture frames the whole scene\n";
+    for (const Light& light : scene.lights) text += lightText(light);
+    if (scene.lights.empty()) text += "light   none: a picture has a head-light\n";
+    for (const Object& object : scene.objects) text += objectText(scene, object);
+    return text;
+}
+
+void showInfo(const std::string& sceneName, bool asJson) {
+    const LoadedScene loaded = loadScene(sceneName);
+    if (asJson) {
+        printResult(infoJson(loaded));
+        return;
+    }
+    for (const std::string& warning : loaded.warnings) printNote(warning);
+    printResult(infoText(loaded.scene));
+}
+
+}  // namespace
+
+Command addInfoCommand(CLI::App& app) {
+    struct Arguments {
+        std::string scene;
+        bool json = false;
+    };
+    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds: cameras, lights, objects, patches, bounds");
+    const auto arguments = std::make_shared<Arguments>();
+    command->add_option("SCENE", arguments->scene, "An .mscene file or a built-in scene: " + builtinSceneList())->type_name("")->required();
+    command->add_flag("--json", arguments->json, "Print JSON instead of text");
+    return {command, [arguments] { showInfo(arguments->scene, arguments->json); }};
+}
+
+}  // namespace tessera::program

@@ -1,0 +1,131 @@
+// Strict readers for sizes, lists of numbers and lists of names on the command line.
+#include "parse_values.h"
+
+#include "tessera/error.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <system_error>
+
+namespace tessera::program {
+
+namespace {
+
+struct NamedAov {
+    std::string_view name;
+    Aov aov;
+};
+
+constexpr std::array<NamedAov, 8> kAovs{{
+    {"Z", Aov::z},
+    {"N", Aov::normal},
+    {"object.id", Aov::object},
+    {"object", Aov::object},
+    {"patch.id", Aov::patch},
+    {"patch", Aov::patch},
+    {"uv", Aov::uv},
+    {"all", Aov::z | Aov::normal | Aov::object | Aov::patch | Aov::uv},
+}};
+
+constexpr std::array kMethods{SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded};
+
+std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
+
+std::vector<std::string_view> splitAtCommas(std::string_view text) {
+    std::vector<std::string_view> parts;
+    for (;;) {
+        const std::size_t comma = text.find(',');
+        parts.push_back(text.substr(0, comma));
+        if (comma == std::string_view::npos) return parts;
+        text.remove_prefix(comma + 1);
+    }
+}
+
+// A side of a picture. Too many digits for an int is out of range, not malformed.
+int parseSide(std::string_view digits, std::string_view whole) {
+    if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
+        throw Error(inQuotes(whole) + " is no size: give WIDTHxHEIGHT in pixels, 1280x720 say");
+    }
+    int side = 0;
+    const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), side);
+    if (result.ec != std::errc() || side < 1 || side > kLargestSide) {
+        throw Error(inQuotes(whole) + " is out of range: width and height must be 1 to " + std::to_string(kLargestSide) + " pixels");
+    }
+    return side;
+}
+
+Aov parseAov(std::string_view wanted) {
+    for (const NamedAov& known : kAovs) {
+        if (known.name == wanted) return known.aov;
+    }
+    throw Error("unknown output " + inQuotes(wanted) + ": known are " + aovNames());
+}
+
+}  // namespace
+
+Size parseSize(std::string_view text) {
+    const std::size_t cross = text.find('x');
+    if (cross == std::string_view::npos) return {parseSide("", text), 0};
+    return {parseSide(text.substr(0, cross), text), parseSide(text.substr(cross + 1), text)};
+}
+
+float parseNumber(std::string_view text) {
+    float value = 0.0F;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (result.ec == std::errc::invalid_argument || result.ptr != text.data() + text.size()) {
+        throw Error(inQuotes(text) + " is no number");
+    }
+    if (result.ec != std::errc() || !std::isfinite(value)) throw Error(inQuotes(text) + " is no finite number of 32-bit floating point");
+    return value;
+}
+
+long long parseWhole(std::string_view text, long long least, long long most) {
+    long long value = 0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (result.ec == std::errc::invalid_argument || result.ptr != text.data() + text.size()) {
+        throw Error(inQuotes(text) + " is no whole number");
+    }
+    if (result.ec != std::errc() || value < least || value > most) {
+        throw Error(inQuotes(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most));
+    }
+    return value;
+}
+
+std::vector<float> parseNumbers(std::string_view text, std::size_t least, std::size_t most) {
+    std::vector<float> numbers;
+    for (const std::string_view part : splitAtCommas(text)) numbers.push_back(parseNumber(part));
+    if (numbers.size() < least || numbers.size() > most) {
+        const std::string wanted = least == most ? std::to_string(least) : std::to_string(least) + " to " + std::to_string(most);
+        throw Error(inQuotes(text) + " has " + std::to_string(numbers.size()) + " of the " + wanted +
+                    " numbers needed, with commas and no spaces between");
+    }
+    return numbers;
+}
+
+SplitMethod parseMethod(std::string_view text) {
+    for (const SplitMethod method : kMethods) {
+        if (name(method) == text) return method;
+    }
+    throw Error("unknown method " + inQuotes(text) + ": known are " + methodNames());
+}
+
+std::string methodNames() {
+    std::string names;
+    for (const SplitMethod method : kMethods) names += (names.empty() ? "" : ", ") + std::string(name(method));
+    return names;
+}
+
+Aov parseAovs(std::string_view text) {
+    Aov aovs = Aov::none;
+    for (const std::string_view part : splitAtCommas(text)) aovs = aovs | parseAov(part);
+    return aovs;
+}
+
+std::string aovNames() {
+    std::string names;
+    for (const NamedAov& known : kAovs) names += (names.empty() ? "" : ", ") + std::string(known.name);
+    return names;
+}
+
+}  // namespace tessera::program

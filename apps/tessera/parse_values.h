@@ -1,0 +1,44 @@
+// Values of the command line that are more than a single number or name. All throw Error, without the option's name.
+#pragma once
+
+#include "tessera/options.h"
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera::program {
+
+struct Size {
+    int width = 0;  // pixels
+    int height = 0;
+};
+
+constexpr int kLargestSide = 65536;  // pixels, as RenderOptions allows
+
+// "1280x720": two whole numbers from 1 to kLargestSide and nothing else.
+[[nodiscard]] Size parseSize(std::string_view text);
+
+// A finite number and nothing else: "-1.5", "1e3".
+[[nodiscard]] float parseNumber(std::string_view text);
+
+// A whole number from `least` to `most` and nothing else: "40000".
+[[nodiscard]] long long parseWhole(std::string_view text, long long least, long long most);
+
+// `least` to `most` numbers with commas between: "1,0.5,-2".
+[[nodiscard]] std::vector<float> parseNumbers(std::string_view text, std::size_t least, std::size_t most);
+
+// "cpu", "breadth" or "bounded".
+[[nodiscard]] SplitMethod parseMethod(std::string_view text);
+
+// The names that parseMethod() knows: "cpu, breadth, bounded".
+[[nodiscard]] std::string methodNames();
+
+// Names with commas between: "Z,N", "all". Errors list the names that are known.
+[[nodiscard]] Aov parseAovs(std::string_view text);
+
+// The names that parseAovs() knows: "Z, N, object.id, ...".
+[[nodiscard]] std::string aovNames();
+
+}  // namespace tessera::program

@@ -1,0 +1,223 @@
+// The command line of `tessera render`: every option with its unit, range and default.
+#include "render_arguments.h"
+
+#include "commands.h"
+#include "console.h"
+#include "load_scene.h"
+#include "parse_values.h"
+#include "tessera/error.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <utility>
+#include <vector>
+
+namespace tessera::program {
+
+namespace {
+
+// An option whose text `read` turns into a value; what `read` refuses is a usage error.
+CLI::Option* addParsed(CLI::App& app, const std::string& optionName, std::function<void(const std::string&)> read,
+                       const std::string& description) {
+    const auto callback = [optionName, read = std::move(read)](const std::string& text) {
+        try {
+            read(text);
+        } catch (const Error& error) {
+            throw CLI::ValidationError(optionName, error.what());
+        }
+    };
+    return app.add_option_function<std::string>(optionName, callback, description);
+}
+
+struct Range {
+    long long least = 0;
+    long long most = 0;
+};
+
+// A whole number; the default shown is what `value` holds.
+template <typename Number>
+CLI::Option* addWhole(CLI::App& app, const std::string& optionName, Number& value, Range range, const std::string& description) {
+    const auto read = [&value, range](const std::string& text) { value = static_cast<Number>(parseWhole(text, range.least, range.most)); };
+    return addParsed(app, optionName, read, description)->default_str(std::to_string(value));
+}
+
+template <std::size_t Count>
+std::string listText(const std::array<float, Count>& values) {
+    std::string text;
+    for (const float value : values) text += (text.empty() ? "" : ",") + shortest(value);
+    return text;
+}
+
+void readBackground(const std::string& text, std::array<float, 4>& background) {
+    const std::vector<float> numbers = parseNumbers(text, 3, 4);
+    background[3] = 1.0F;
+    std::copy(numbers.begin(), numbers.end(), background.begin());
+}
+
+void readCrop(const std::string& text, std::array<float, 4>& crop) {
+    const std::vector<float> numbers = parseNumbers(text, 4, 4);
+    std::copy(numbers.begin(), numbers.end(), crop.begin());
+}
+
+Transform readLookAt(const std::string& text) {
+    const std::vector<float> n = parseNumbers(text, 6, 6);
+    return lookAt({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, Camera{}.fovy).transform;
+}
+
+float readFov(const std::string& text) {
+    const float degrees = parseNumber(text);
+    if (!(degrees > 0.0F && degrees < 180.0F)) throw Error("'" + text + "' is out of range: above 0 and below 180 degrees");
+    return degrees;
+}
+
+void addPictureOptions(CLI::App& app, RenderArguments& arguments) {
+    RenderOptions& options = arguments.options;
+    const auto readSize = [&options](const std::string& text) {
+        const Size size = parseSize(text);
+        options.width = size.width;
+        options.height = size.height;
+    };
+    app.add_option("-o,--output", arguments.output,
+                   "File of the picture; its ending says the format: .exr (half float,\nlinear, all outputs), .png .tif .jpg (8-bit sRGB)")
+        ->type_name("OUT")
+        ->required();
+    addParsed(app, "--size", readSize, "Width and height of the full picture in pixels, each 1 to 65536")
+        ->type_name("WxH")
+        ->default_str(std::to_string(options.width) + "x" + std::to_string(options.height));
+    addParsed(
+        app, "--crop", [&options](const std::string& text) { readCrop(text, options.crop); },
+        "Render this window alone: fractions of the picture, 0 to 1, y down")
+        ->type_name("X0,X1,Y0,Y1")
+        ->default_str(listText(options.crop));
+    addWhole(app, "--pixel-samples", options.pixelSamples, {1, 16}, "N x N stratified samples a pixel, 1 to 16")->type_name("N");
+    addParsed(
+        app, "--background", [&options](const std::string& text) { readBackground(text, options.background); },
+        "Linear colour and alpha where nothing is seen; alpha is 1 when left out")
+        ->type_name("R,G,B[,A]")
+        ->default_str(listText(options.background));
+    addParsed(
+        app, "--aov", [&options](const std::string& text) { options.aovs = parseAovs(text); },
+        "More outputs for .exr, with commas between:\n" + aovNames())
+        ->type_name("LIST");
+    for (CLI::Option* option : app.get_options()) {
+        if (option->get_group() == "Options") option->group("Picture");
+    }
+}
+
+void addCameraOptions(CLI::App& app, CameraArguments& camera) {
+    app.add_option("--camera", camera.name,
+                   "A camera of the scene; without it the first one, or one that sees all of a\nscene that has none")
+        ->type_name("NAME")
+        ->group("Camera");
+    addParsed(
+        app, "--look-at", [&camera](const std::string& text) { camera.lookAt = readLookAt(text); },
+        "Put the camera at E, looking at T, y up: six numbers in scene units")
+        ->type_name("EX,EY,EZ,TX,TY,TZ")
+        ->group("Camera");
+    addParsed(
+        app, "--fov", [&camera](const std::string& text) { camera.fov = readFov(text); },
+        "Vertical field of view in degrees, above 0 and below 180; without it the\ncamera's own")
+        ->type_name("DEG")
+        ->group("Camera");
+}
+
+void addSplitOptions(CLI::App& app, RenderArguments& arguments) {
+    RenderOptions& options = arguments.options;
+    addParsed(
+        app, "--method", [&options](const std::string& text) { options.method = parseMethod(text); },
+        "How ranges are split: cpu (on the host, the reference), breadth (all at\nonce), bounded (memory fixed beforehand)")
+        ->type_name("NAME")
+        ->default_str(std::string(name(options.method)));
+    app.add_option("--mode", arguments.mode, "What is decided on: classical (halves at fixed rates, as Micropolis did)")
+        ->type_name("NAME")
+        ->check(CLI::IsMember({"classical"}).description(""))
+        ->capture_default_str();
+    addWhole(app, "--batch", options.batch, {1, 1 << 20}, "Ranges bounded at a time, 1 to 1048576: less takes less device memory")
+        ->type_name("P");
+    addParsed(
+        app, "--split-bound", [&options](const std::string& text) { options.splitBound = parseNumber(text); },
+        "Pixels, above 0: a range no longer than this either way is diced")
+        ->type_name("PX")
+        ->default_str(shortest(options.splitBound));
+    addWhole(app, "--dice-rate", options.diceRate, {1, 32}, "Micropolygons along each side of a range, 1 to 32")->type_name("N");
+    addWhole(app, "--max-depth", options.maxDepth, {0, 24}, "Splits after which a range is diced whatever its size, 0 to 24")
+        ->type_name("K");
+    app.add_flag("--cull-backfaces", options.cullBackfaces, "Drop micropolygons that face away (normal: du x dv)");
+    for (CLI::Option* option : app.get_options()) {
+        if (option->get_group() == "Options") option->group("Splitting and dicing");
+    }
+}
+
+void addDeviceOptions(CLI::App& app, RenderArguments& arguments) {
+    addWhole(app, "--device", arguments.settings.device, {0, std::numeric_limits<int>::max()},
+             "Number of the device in 'tessera devices'; without it the first GPU, else\nthe first usable device")
+        ->type_name("I")
+        ->default_str("");
+    addWhole(app, "--threads", arguments.options.threads, {0, 1024}, "Host threads of --method cpu, 1 to 1024; 0 is one a core")
+        ->type_name("N");
+    app.add_flag("--emulate-atomics", arguments.options.emulateAtomics,
+                 "Hide with 32-bit atomics in two passes even where there are 64-bit ones");
+    app.add_option("--cache-dir", arguments.settings.cacheFolder,
+                   "Folder of compiled kernels; without it $TESSERA_CACHE,\n$XDG_CACHE_HOME/tessera or ~/.cache/tessera")
+        ->type_name("DIR");
+    app.add_flag_callback(
+        "--no-cache", [&arguments] { arguments.settings.cacheKernels = false; }, "Neither read nor write compiled kernels");
+    for (CLI::Option* option : app.get_options()) {
+        if (option->get_group() == "Options") option->group("Device");
+    }
+}
+
+void addReportOptions(CLI::App& app, RenderArguments& arguments) {
+    addWhole(app, "--frames", arguments.frames, {1, 100000}, "Render N times, 1 to 100000, and report the median frame")
+        ->type_name("N")
+        ->group("Reports");
+    app.add_option("--stats", arguments.stats, "Write counts, times (ms) and memory (bytes) as JSON; - is standard output")
+        ->type_name("FILE.json")
+        ->group("Reports");
+    app.add_option("--trace", arguments.trace, "Write every kernel and transfer as a trace for ui.perfetto.dev or\nchrome://tracing")
+        ->type_name("FILE.json")
+        ->group("Reports");
+    app.add_flag("--quiet", arguments.quiet, "No progress, notes or summary: errors alone")->group("Reports");
+}
+
+bool sameFile(const std::string& first, const std::string& second) {
+    if (first.empty() || second.empty()) return false;
+    std::error_code failure;
+    const auto whole = [&failure](const std::string& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path), failure);
+    };
+    return whole(first) == whole(second) && !failure;
+}
+
+}  // namespace
+
+void addRenderOptions(CLI::App& app, RenderArguments& arguments) {
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    // Taken away and put back at the end: it is to stand last.
+    app.set_help_flag();
+    app.add_option("SCENE", arguments.scene, "An .mscene file or a built-in scene: " + builtinSceneList())->type_name("")->required();
+    addPictureOptions(app, arguments);
+    addCameraOptions(app, arguments.camera);
+    addSplitOptions(app, arguments);
+    addDeviceOptions(app, arguments);
+    addReportOptions(app, arguments);
+    app.set_help_flag("-h,--help", "Print this help and exit")->group("Reports");
+}
+
+void checkRenderArguments(const RenderArguments& arguments) {
+    if (arguments.output == "-") throw UsageError("--output -: a picture cannot go to standard output, name a file");
+    if (arguments.trace == "-") throw UsageError("--trace -: a trace cannot go to standard output, name a file");
+    if (sameFile(arguments.output, arguments.stats) || sameFile(arguments.output, arguments.trace) ||
+        sameFile(arguments.stats, arguments.trace)) {
+        throw UsageError("--output, --stats and --trace name the same file: give each its own");
+    }
+    try {
+        arguments.options.validate();
+    } catch (const Error& error) {
+        throw UsageError(error.what());
+    }
+}
+
+}  // namespace tessera::program

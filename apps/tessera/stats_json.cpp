@@ -1,0 +1,42 @@
+// A frame's statistics as JSON, under the names that --stats promises.
+#include "stats_json.h"
+
+#include "tessera/renderer.h"
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+namespace tessera::program {
+
+std::string statsJson(const Statistics& statistics, const std::string& scene, const std::string& camera, std::span<const double> frameMs) {
+    nlohmann::ordered_json json;
+    json["version"] = std::string(versionString());
+    json["scene"] = scene;
+    json["camera"] = camera;
+    json["device"] = statistics.device;
+    json["width"] = statistics.width;
+    json["height"] = statistics.height;
+    json["pixel_samples"] = statistics.pixelSamples;
+    json["method"] = statistics.method;
+    json["batch"] = statistics.batch;
+    json["patches"] = statistics.patches;
+    json["ranges_processed"] = statistics.rangesProcessed;
+    json["ranges_diced"] = statistics.rangesDiced;
+    json["ranges_culled"] = statistics.rangesCulled;
+    json["stack_peak"] = statistics.stackPeak;
+    json["iterations"] = statistics.iterations;
+    json["batches"] = statistics.batches;
+    json["micropolygons"] = statistics.micropolygons;
+    json["pixels_covered"] = statistics.pixelsCovered;
+    json["split_ms"] = statistics.splitMs;
+    json["frame_ms"] = statistics.frameMs;
+    json["frame_ms_all"] = std::vector<double>(frameMs.begin(), frameMs.end());
+    json["kernel_ms"] = nlohmann::ordered_json::object();
+    for (const auto& [kernel, milliseconds] : statistics.kernelMs) json["kernel_ms"][kernel] = milliseconds;
+    json["build_ms"] = statistics.buildMs;
+    json["device_bytes_peak"] = statistics.deviceBytesPeak;
+    // Names come from files, whose bytes need not be UTF-8.
+    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace tessera::program

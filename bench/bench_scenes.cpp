@@ -1,0 +1,23 @@
+// The scenes that are measured: those that need no file first.
+#include "bench_scenes.h"
+
+#include "made_scenes.h"
+
+#include <string_view>
+#include <utility>
+
+namespace tessera::bench {
+
+std::vector<SceneSource> sceneSources(const std::string& folder) {
+    std::vector<SceneSource> sources;
+    for (const std::string_view name : builtinSceneNames()) {
+        // A file may have the same name: both are measured.
+        sources.push_back({"builtin_" + std::string(name), [name] { return builtinScene(name); }});
+    }
+    sources.push_back({"made_teapots", [] { return teapotGrid(12, 8); }});
+    sources.push_back({"made_strands", [] { return strands(20000); }});
+    for (SceneSource& source : fileScenes(folder)) sources.push_back(std::move(source));
+    return sources;
+}
+
+}  // namespace tessera::bench

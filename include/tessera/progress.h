@@ -1,0 +1,13 @@
+// How the library tells its caller how far a frame is.
+#pragma once
+
+#include <functional>
+#include <string_view>
+
+namespace tessera {
+
+// Called from the thread that called render(), at most some ten times a second.
+// `stage` names what runs ("split", "shade"); `fraction` is 0 to 1 and never falls within a frame.
+using Progress = std::function<void(std::string_view stage, double fraction)>;
+
+}  // namespace tessera

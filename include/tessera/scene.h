@@ -1,0 +1,134 @@
+// What is to be rendered: meshes of patches, objects that place them, lights and cameras.
+// Conventions: right-handed; a camera looks along its -z axis, y up; colours are linear RGB.
+#pragma once
+
+#include <glm/glm.hpp>
+#include <glm/gtc/quaternion.hpp>
+
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace tessera {
+
+// A rigid motion: first the rotation, then the translation.
+struct Transform {
+    glm::vec3 translation{0.0F};
+    glm::quat rotation{1.0F, 0.0F, 0.0F, 0.0F};  // need not be of unit length; zero length is refused
+};
+
+// The unit rotation of `transform`. Requires a rotation of non-zero, finite length.
+[[nodiscard]] glm::dmat3 rotationMatrix(const Transform& transform);
+
+// The 4x4 matrix that takes local to world coordinates, in double precision.
+[[nodiscard]] glm::dmat4 matrix(const Transform& transform);
+
+enum class PatchKind : std::uint32_t {
+    bezier,   // 16 points, row by row: point 4 v + u of the bicubic control net
+    gregory,  // 20 points: p0..p3, e+0..e+3, e-0..e-3, f+0..f+3, f-0..f-3 (Loop et al. 2009)
+};
+
+[[nodiscard]] constexpr std::size_t pointsPerPatch(PatchKind kind) { return kind == PatchKind::bezier ? 16 : 20; }
+
+[[nodiscard]] std::string_view name(PatchKind kind);
+
+// Patches of one kind; no point is shared between patches.
+struct Mesh {
+    std::string name;
+    PatchKind kind = PatchKind::bezier;
+    std::vector<glm::vec3> points;  // pointsPerPatch(kind) points a patch
+
+    [[nodiscard]] std::size_t patchCount() const { return points.size() / pointsPerPatch(kind); }
+};
+
+enum class MaterialKind : std::uint32_t {
+    matte,    // Lambert
+    plastic,  // Lambert and a white Blinn-Phong highlight
+};
+
+struct Material {
+    MaterialKind kind = MaterialKind::matte;
+    float specular = 0.3F;   // plastic: strength of the highlight, 0 to 1
+    float roughness = 0.1F;  // plastic: width of the highlight, above 0 to 1
+};
+
+// A mesh placed in the world. Objects may share a mesh.
+struct Object {
+    std::string name;
+    Transform transform;
+    std::string mesh;  // Mesh::name
+    glm::vec3 color{1.0F};
+    Material material;
+};
+
+enum class LightKind : std::uint32_t {
+    point,        // at the transform's translation; falls off with the square of the distance
+    directional,  // shines along the -z axis of the transform
+    hemi,         // a sky around the +z axis of the transform: full light on a normal along +z, none along -z
+};
+
+[[nodiscard]] std::string_view name(LightKind kind);
+
+struct Light {
+    std::string name;
+    Transform transform;
+    glm::vec3 color{1.0F};
+    float intensity = 1.0F;  // directional, hemi: radiance of a white matte surface that faces it; point: the same at distance 1
+    LightKind kind = LightKind::directional;
+};
+
+struct Camera {
+    std::string name;
+    Transform transform;
+    float near = 0.01F;   // distance of the near plane, scene units, above 0
+    float far = 1000.0F;  // kept for the file's sake; classical mode culls beyond 1000 whatever it says
+    float fovy = 45.0F;   // vertical field of view, degrees, above 0 and below 180
+};
+
+struct Scene {
+    std::string name;  // file name or name of the built-in scene, for messages
+    std::vector<Mesh> meshes;
+    std::vector<Light> lights;
+    std::vector<Object> objects;
+    std::vector<Camera> cameras;
+
+    [[nodiscard]] const Mesh* findMesh(std::string_view meshName) const;
+    [[nodiscard]] const Camera* findCamera(std::string_view cameraName) const;
+    [[nodiscard]] std::size_t placedPatchCount() const;  // patches over all objects
+
+    // Throws Error, naming scene and item (mesh, patch and point), on: coordinates that are not finite or beyond 1e9
+    // (an eye need only be finite), point counts that are no multiple of a patch's, mesh names used twice, objects whose
+    // mesh does not exist, rotations of zero length, near <= 0, fovy outside (0, 180), colours, intensities and far planes
+    // that are not finite, materials outside their ranges, kinds that do not exist.
+    void validate() const;
+};
+
+// An axis-aligned box in world space. Empty when lower > upper.
+struct Bounds {
+    glm::vec3 lower{std::numeric_limits<float>::infinity()};
+    glm::vec3 upper{-std::numeric_limits<float>::infinity()};
+
+    void include(const glm::vec3& point);
+    [[nodiscard]] bool empty() const { return lower.x > upper.x; }
+};
+
+// The box of all control points of all objects, which holds the surfaces (convex hull).
+[[nodiscard]] Bounds worldBounds(const Scene& scene);
+
+// A camera at `eye` that looks at `target`, y up (z up where the view is vertical). Throws Error when the two coincide
+// or are not finite, and on fovy outside (0, 180).
+[[nodiscard]] Camera lookAt(const glm::vec3& eye, const glm::vec3& target, float fovyDegrees);
+
+// A camera that sees all of the scene from a little above, for scenes that have none: y up, in any picture at least as
+// wide as high. Of an empty scene it sees the origin. Throws Error on fovy outside (0, 180).
+[[nodiscard]] Camera framingCamera(const Scene& scene, float fovyDegrees);
+
+// Scenes that need no file.
+[[nodiscard]] const std::vector<std::string_view>& builtinSceneNames();
+[[nodiscard]] bool isBuiltinScene(std::string_view sceneName);
+[[nodiscard]] Scene builtinScene(std::string_view sceneName);  // throws Error on an unknown name
+
+}  // namespace tessera

@@ -1,0 +1,30 @@
+// Chooses and opens an OpenCL device.
+#pragma once
+
+#include "device/opencl.h"
+#include "tessera/device.h"
+
+namespace tessera {
+
+// How kernels are laid over a device (device/lanes.clh).
+struct DeviceShape {
+    int group = 1;         // work-items a group
+    int lanes = 16;        // values a work-item computes at a time
+    unsigned groups = 64;  // groups a launch; each takes chunk after chunk
+};
+
+struct OpenDevice {
+    DeviceInfo info;
+    cl::Device device;
+    cl::Context context;
+    cl::CommandQueue queue;  // in order, with profiling
+    DeviceShape shape;
+};
+
+// Opens DeviceInfo::index `index`, or the default for -1. Throws Error: no device, unknown index, unusable device.
+[[nodiscard]] OpenDevice openDevice(int index);
+
+// "CL_OUT_OF_RESOURCES (-5)" and the like, for messages.
+[[nodiscard]] std::string clErrorName(cl_int code);
+
+}  // namespace tessera

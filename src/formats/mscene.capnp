@@ -1,0 +1,85 @@
+# Micropolis' scene files, as its .mscene files hold them, and Tessera's additions.
+# Ordinals are the format: never renumber or reuse one, extend with the next free ordinal only.
+@0xe2b1a4424e280f7b;
+
+using Cxx = import "/capnp/c++.capnp";
+$Cxx.namespace("tessera::schema");
+
+struct Vec3 {
+  x @0 :Float32;
+  y @1 :Float32;
+  z @2 :Float32;
+}
+
+struct Quaternion {
+  r @0 :Float32;
+  i @1 :Float32;
+  j @2 :Float32;
+  k @3 :Float32;
+}
+
+# First the rotation, then the translation.
+struct Transform {
+  translation @0 :Vec3;
+  rotation @1 :Quaternion;
+}
+
+struct Camera {
+  name @0 :Text;
+  transform @1 :Transform;
+  near @2 :Float32;
+  far @3 :Float32;
+  fovy @4 :Float32;  # vertical field of view, degrees
+}
+
+struct LightSource {
+  enum Type {
+    point @0;
+    directional @1;
+    hemi @2;
+  }
+
+  name @0 :Text;
+  transform @1 :Transform;
+  color @2 :Vec3;
+  intensity @3 :Float32;
+  type @4 :Type;
+}
+
+# Tessera's own: an object without one is matte, which is what Micropolis' files mean.
+struct Material {
+  enum Kind {
+    matte @0;
+    plastic @1;
+  }
+
+  kind @0 :Kind;
+  specular @1 :Float32;   # strength of the highlight, 0 to 1
+  roughness @2 :Float32;  # width of the highlight, above 0 to 1
+}
+
+struct Object {
+  name @0 :Text;
+  transform @1 :Transform;
+  meshname @2 :Text;
+  color @3 :Vec3;
+  material @4 :Material;
+}
+
+struct Mesh {
+  enum Type {
+    bezier @0;
+    gregory @1;
+  }
+
+  name @0 :Text;
+  type @1 :Type;
+  positions @2 :List(Float32);  # xyz of 16 (bezier) or 20 (gregory) control points a patch
+}
+
+struct Scene {
+  meshes @0 :List(Mesh);
+  lights @1 :List(LightSource);
+  objects @2 :List(Object);
+  cameras @3 :List(Camera);
+}

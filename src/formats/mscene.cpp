@@ -1,0 +1,325 @@
+// Reads .mscene files. The bytes are trusted in nothing: sizes are bounded before memory is taken, and every
+// failure is an Error that names file and item.
+#include "formats/mscene.h"
+
+#include "scene/text.h"
+#include "tessera/error.h"
+
+#include "mscene.capnp.h"
+
+#include <capnp/serialize-packed.h>
+#include <kj/exception.h>
+#include <kj/io.h>
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+#include <fstream>
+#include <new>
+#include <string_view>
+#include <system_error>
+#include <unordered_set>
+#include <utility>
+
+namespace tessera {
+
+namespace {
+
+constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30U;
+
+// Unpacked, a file may take this many times its bytes and this much more. Coordinates pack to a third at best,
+// a bomb of packed zeros to a thousandth.
+constexpr std::uint64_t kUnpackedPerByte = 8;
+constexpr std::uint64_t kUnpackedAllowance = 1U << 20U;
+
+constexpr std::size_t kMostWarnings = 50;
+
+// One file being read: what messages begin with, and where its oddities are told.
+class Reading {
+public:
+    Reading(std::string file, std::size_t fileBytes, std::vector<std::string>* warnings)
+        : file_(std::move(file)), fileBytes_(fileBytes), warnings_(warnings), warned_(warnings == nullptr ? 0 : warnings->size()) {}
+
+    [[nodiscard]] const std::string& file() const { return file_; }
+    [[nodiscard]] std::size_t fileBytes() const { return fileBytes_; }
+
+    [[noreturn]] void fail(const std::string& what) const { throw Error(file_ + ": " + what); }
+
+    void warn(const std::string& what) const {
+        if (warnings_ == nullptr || warnings_->size() > warned_ + kMostWarnings) return;
+        const bool last = warnings_->size() == warned_ + kMostWarnings;
+        warnings_->push_back(file_ + ": " + (last ? std::string("further oddities are not listed") : what));
+    }
+
+private:
+    std::string file_;
+    std::size_t fileBytes_;
+    std::vector<std::string>* warnings_;
+    std::size_t warned_;  // lines that were there before
+};
+
+// Cap'n Proto's own words for what is wrong, as one line, without the condition of its code that failed before
+// them and the advice to programmers behind.
+std::string describe(const kj::Exception& exception) {
+    const kj::StringPtr description = exception.getDescription();
+    std::string text(description.begin(), description.size());
+    std::replace_if(
+        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
+    if (const std::size_t condition = text.rfind("; "); condition != std::string::npos) text.erase(0, condition + 2);
+    return text.substr(0, text.find(". "));
+}
+
+constexpr std::string_view kDamaged = "; the file is damaged, or no packed Cap'n Proto scene";
+
+std::string itemText(std::string_view kind, std::size_t index) { return std::string(kind) + " number " + std::to_string(index); }
+
+std::string readName(const Reading& reading, capnp::Text::Reader text, const std::string& item) {
+    std::string result(text.begin(), text.size());
+    if (!isUtf8(result) || result.find('\0') != std::string::npos) {
+        reading.fail(item + ": name " + quotedName(result) + " is no UTF-8 text; rename it");
+    }
+    return result;
+}
+
+glm::vec3 readVec3(schema::Vec3::Reader vector) { return {vector.getX(), vector.getY(), vector.getZ()}; }
+
+// Item is any of the schema's structs with a transform.
+template <typename Item>
+Transform readTransform(const Reading& reading, Item source, const std::string& item) {
+    Transform transform;
+    const schema::Transform::Reader stored = source.getTransform();
+    if (stored.hasTranslation()) transform.translation = readVec3(stored.getTranslation());
+    if (stored.hasRotation()) {
+        const schema::Quaternion::Reader rotation = stored.getRotation();
+        transform.rotation = glm::quat(rotation.getR(), rotation.getI(), rotation.getJ(), rotation.getK());
+    }
+    if (!stored.hasTranslation() || !stored.hasRotation()) {
+        reading.warn(item + " has no " + (stored.hasTranslation() ? "rotation" : "place") + ": none is taken");
+    }
+    return transform;
+}
+
+template <typename Item>
+glm::vec3 readColor(const Reading& reading, Item source, const std::string& item) {
+    if (source.hasColor()) return readVec3(source.getColor());
+    reading.warn(item + " has no colour: white is taken");
+    return glm::vec3(1.0F);
+}
+
+Mesh readMesh(const Reading& reading, schema::Mesh::Reader source, std::size_t index) {
+    Mesh mesh;
+    mesh.name = readName(reading, source.getName(), itemText("mesh", index));
+    const std::string item = "mesh " + quotedName(mesh.name);
+    switch (source.getType()) {
+        case schema::Mesh::Type::BEZIER:
+            mesh.kind = PatchKind::bezier;
+            break;
+        case schema::Mesh::Type::GREGORY:
+            mesh.kind = PatchKind::gregory;
+            break;
+        default:
+            reading.fail(item + ": unknown type " + std::to_string(static_cast<int>(source.getType())) + "; use bezier or gregory");
+    }
+    // Fetched once: each fetch counts against the message's traversal limit.
+    const capnp::List<float>::Reader positions = source.getPositions();
+    const std::uint32_t perPatch = static_cast<std::uint32_t>(pointsPerPatch(mesh.kind)) * 3;
+    if (positions.size() % perPatch != 0) {
+        reading.fail(item + ": " + std::to_string(positions.size()) + " numbers are no multiple of the " + std::to_string(perPatch) +
+                     " of a " + std::string(name(mesh.kind)) + " patch; give whole patches");
+    }
+    if (positions.size() == 0) reading.warn(item + " has no patches");
+    mesh.points.reserve(positions.size() / 3);
+    for (std::uint32_t i = 0; i < positions.size(); i += 3) mesh.points.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
+    return mesh;
+}
+
+Light readLight(const Reading& reading, schema::LightSource::Reader source, std::size_t index) {
+    Light light;
+    light.name = readName(reading, source.getName(), itemText("light", index));
+    const std::string item = "light " + quotedName(light.name);
+    switch (source.getType()) {
+        case schema::LightSource::Type::POINT:
+            light.kind = LightKind::point;
+            break;
+        case schema::LightSource::Type::DIRECTIONAL:
+            light.kind = LightKind::directional;
+            break;
+        case schema::LightSource::Type::HEMI:
+            light.kind = LightKind::hemi;
+            break;
+        default:
+            reading.fail(item + ": unknown type " + std::to_string(static_cast<int>(source.getType())) +
+                         "; use point, directional or hemi");
+    }
+    light.transform = readTransform(reading, source, item);
+    light.color = readColor(reading, source, item);
+    light.intensity = source.getIntensity();
+    return light;
+}
+
+Material readMaterial(const Reading& reading, schema::Material::Reader source, const std::string& item) {
+    Material material;
+    switch (source.getKind()) {
+        case schema::Material::Kind::MATTE:
+            material.kind = MaterialKind::matte;
+            break;
+        case schema::Material::Kind::PLASTIC:
+            material.kind = MaterialKind::plastic;
+            break;
+        default:
+            reading.fail(item + ": unknown material " + std::to_string(static_cast<int>(source.getKind())) + "; use matte or plastic");
+    }
+    material.specular = source.getSpecular();
+    material.roughness = source.getRoughness();
+    return material;
+}
+
+Object readObject(const Reading& reading, schema::Object::Reader source, std::size_t index) {
+    Object object;
+    object.name = readName(reading, source.getName(), itemText("object", index));
+    const std::string item = "object " + quotedName(object.name);
+    object.mesh = readName(reading, source.getMeshname(), item + ", mesh");
+    object.transform = readTransform(reading, source, item);
+    object.color = readColor(reading, source, item);
+    if (source.hasMaterial()) object.material = readMaterial(reading, source.getMaterial(), item);
+    return object;
+}
+
+Camera readCamera(const Reading& reading, schema::Camera::Reader source, std::size_t index) {
+    Camera camera;
+    camera.name = readName(reading, source.getName(), itemText("camera", index));
+    camera.transform = readTransform(reading, source, "camera " + quotedName(camera.name));
+    camera.near = source.getNear();
+    camera.far = source.getFar();
+    camera.fovy = source.getFovy();
+    return camera;
+}
+
+// `items` through `readItem`, with the item's number in what Cap'n Proto has to say.
+template <typename Item, typename List, typename ReadItem>
+std::vector<Item> readList(const Reading& reading, std::string_view kind, List items, ReadItem readItem) {
+    // Each item takes some bytes for its pointers. Without this a list of empty items would cost many times the file.
+    if (items.size() > reading.fileBytes() / 4) {
+        reading.fail(std::to_string(items.size()) + " items in the list of kind " + std::string(kind) + " are more than the file can hold" +
+                     std::string(kDamaged));
+    }
+    std::vector<Item> result;
+    result.reserve(items.size());
+    for (std::uint32_t i = 0; i < items.size(); ++i) {
+        try {
+            result.push_back(readItem(reading, items[i], i));
+        } catch (const kj::Exception& exception) {
+            reading.fail(itemText(kind, i) + ": " + describe(exception) + std::string(kDamaged));
+        }
+    }
+    return result;
+}
+
+Scene readScene(const Reading& reading, schema::Scene::Reader source) {
+    Scene scene;
+    scene.name = reading.file();
+    scene.meshes = readList<Mesh>(reading, "mesh", source.getMeshes(), readMesh);
+    scene.lights = readList<Light>(reading, "light", source.getLights(), readLight);
+    scene.objects = readList<Object>(reading, "object", source.getObjects(), readObject);
+    scene.cameras = readList<Camera>(reading, "camera", source.getCameras(), readCamera);
+    return scene;
+}
+
+void warnOfOddities(const Reading& reading, const Scene& scene) {
+    if (scene.objects.empty()) reading.warn("the scene has no objects: there is nothing to see");
+    std::unordered_set<std::string_view> names;
+    for (const Camera& camera : scene.cameras) {
+        if (!names.insert(camera.name).second) reading.warn("camera " + quotedName(camera.name) + " is there twice: the first is taken");
+    }
+}
+
+// The most bytes that a message in a file of `fileBytes` may unpack to.
+std::uint64_t unpackedLimit(std::uint64_t fileBytes) { return fileBytes * kUnpackedPerByte + kUnpackedAllowance; }
+
+// Bytes that packed `bytes` stand for. Cap'n Proto's own count refuses what does not end where a word ends; here
+// the end is left to the reader, which knows where the message stops and says what is wrong with it.
+std::uint64_t unpackedSize(kj::ArrayPtr<const kj::byte> bytes) {
+    std::uint64_t words = 0;
+    for (std::size_t i = 0; i < bytes.size();) {
+        const kj::byte tag = bytes[i];
+        i += 1 + static_cast<std::size_t>(std::popcount(tag));
+        ++words;
+        if ((tag != 0x00 && tag != 0xFF) || i >= bytes.size()) continue;
+        const std::size_t run = bytes[i++];
+        words += run;
+        if (tag == 0xFF) i += run * sizeof(capnp::word);
+    }
+    return words * sizeof(capnp::word);
+}
+
+void refuseBombs(const Reading& reading, kj::ArrayPtr<const kj::byte> bytes) {
+    const std::uint64_t unpacked = unpackedSize(bytes);
+    const std::uint64_t limit = unpackedLimit(bytes.size());
+    if (unpacked <= limit) return;
+    reading.fail("unpacks to " + std::to_string(unpacked) + " bytes, more than the " + std::to_string(limit) + " that a scene in " +
+                 std::to_string(bytes.size()) + " bytes may take" + std::string(kDamaged));
+}
+
+Scene unpackScene(const Reading& reading, kj::ArrayPtr<const kj::byte> bytes) {
+    refuseBombs(reading, bytes);
+    capnp::ReaderOptions options;
+    // Bounds what the message claims to hold as well, before any of it is allocated.
+    options.traversalLimitInWords = unpackedLimit(bytes.size()) / sizeof(capnp::word);
+    options.nestingLimit = 16;
+    kj::ArrayInputStream stream(bytes);
+    Scene scene;
+    {
+        // Reads what is left of the message when it goes, and so may throw then.
+        capnp::PackedMessageReader message(stream, options);
+        scene = readScene(reading, message.getRoot<schema::Scene>());
+    }
+    if (const std::size_t left = stream.tryGetReadBuffer().size(); left > 0) {
+        reading.warn(std::to_string(left) + " bytes after the scene's end are ignored");
+    }
+    return scene;
+}
+
+std::vector<std::byte> readBytes(const std::filesystem::path& path) {
+    const std::string file = path.string();
+    std::error_code error;
+    const std::filesystem::file_status status = std::filesystem::status(path, error);
+    if (!std::filesystem::exists(status)) throw Error(file + ": cannot be found; check the name");
+    if (std::filesystem::is_directory(status)) throw Error(file + ": is a folder; name a scene file in it");
+    if (!std::filesystem::is_regular_file(status)) throw Error(file + ": is no ordinary file; copy the scene to one");
+    const std::uintmax_t size = std::filesystem::file_size(path, error);
+    if (error) throw Error(file + ": its size cannot be read (" + error.message() + "); check its permissions");
+    if (size > kLargestFile) {
+        throw Error(file + ": has " + std::to_string(size) + " bytes; scene files hold at most " + std::to_string(kLargestFile));
+    }
+    std::ifstream stream(path, std::ios::binary);
+    if (!stream) throw Error(file + ": cannot be opened; check its permissions");
+    std::vector<std::byte> bytes(static_cast<std::size_t>(size));
+    stream.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    if (static_cast<std::uintmax_t>(stream.gcount()) != size) throw Error(file + ": cannot be read to its end; check the disk");
+    return bytes;
+}
+
+}  // namespace
+
+Scene parseMscene(std::span<const std::byte> bytes, const std::string& sceneName, std::vector<std::string>* warnings) {
+    const Reading reading(sceneName, bytes.size(), warnings);
+    if (bytes.empty()) reading.fail("is empty; a scene is a packed Cap'n Proto message");
+    try {
+        Scene scene = unpackScene(reading, kj::arrayPtr(reinterpret_cast<const kj::byte*>(bytes.data()), bytes.size()));
+        scene.validate();
+        warnOfOddities(reading, scene);
+        return scene;
+    } catch (const kj::Exception& exception) {
+        reading.fail(describe(exception) + std::string(kDamaged));
+    }
+}
+
+Scene readMscene(const std::filesystem::path& path, std::vector<std::string>* warnings) {
+    try {
+        return parseMscene(readBytes(path), path.string(), warnings);
+    } catch (const std::bad_alloc&) {
+        throw Error(path.string() + ": there is not enough memory to read it; split it into smaller files");
+    }
+}
+
+}  // namespace tessera

@@ -1,0 +1,25 @@
+// Turns camera, options and scene into what the kernels take.
+#pragma once
+
+#include <vector>
+
+#include "film/film.h"
+#include "render/frame_shared.h"
+#include "shade/light_shared.h"
+#include "surface/patch_set.h"
+#include "tessera/options.h"
+#include "tessera/scene.h"
+
+namespace tessera {
+
+[[nodiscard]] frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, const PatchSet& patches);
+
+// World to eye space (x right, y up, z the depth); its third row is the camera's -z axis.
+[[nodiscard]] glm::dmat4 eyeFromWorld(const Camera& camera);
+
+[[nodiscard]] std::vector<placed_object> placeObjects(const Scene& scene, const glm::dmat4& eyeFromWorld);
+
+// The scene's lights in eye space; a head-light of radiance 1 where it has none.
+[[nodiscard]] std::vector<eye_light> placeLights(const Scene& scene, const glm::dmat4& eyeFromWorld);
+
+}  // namespace tessera

@@ -1,0 +1,57 @@
+// What every station must know of a frame: camera, bounds, film. Passed by value to the kernels.
+// Eye space here: x right, y up, z the DEPTH along the view axis (positive in front of the eye).
+#ifndef TESSERA_RENDER_FRAME_SHARED_H
+#define TESSERA_RENDER_FRAME_SHARED_H
+
+#include "device/types_shared.h"
+
+TESSERA_SHARED_BEGIN
+
+typedef struct {
+    // Camera.
+    float focal;       // pixels: screen x = centre_x + focal * x / depth
+    float centre_x;    // pixels
+    float centre_y;    // pixels
+    float near_plane;  // scene units
+    float far_cull;    // scene units: ranges wholly beyond are culled
+    // Bounds of the picture with the ribbon, pixels from the left and from the BOTTOM (y up).
+    float cull_left;
+    float cull_right;
+    float cull_bottom;
+    float cull_top;
+    // Splitting and dicing.
+    float split_bound;  // pixels
+    uint max_depth;     // splits
+    uint dice_rate;     // micropolygons along a side of a range
+    // Patches: [0, bezier_patches) are Bezier, [bezier_patches, patches) Gregory.
+    uint bezier_patches;
+    uint patches;
+    // Film, in cells: a cell holds one sample, pixel_samples x pixel_samples cells make a pixel.
+    int pixel_samples;
+    int cells_x;  // of the crop window
+    int cells_y;
+    int tile_cells;      // cells along a side of a tile; a multiple of pixel_samples
+    float tile_inverse;  // 1 / tile_cells
+    int tiles_x;
+    int tiles;
+    int width;  // of the crop window, pixels
+    int height;
+    // Raster coordinates: 24.8 fixed point in cells, from the crop window's top left, y down.
+    float raster_scale;  // focal * pixel_samples * 256
+    float raster_x;      // centre of the full picture in 1/256 cells
+    float raster_y;
+    int raster_x0;  // the crop window's corner in 1/256 cells
+    int raster_y0;
+    uint cull_backfaces;  // 0 or 1
+    // Shading.
+    uint lights;
+    float background_r;  // premultiplied
+    float background_g;
+    float background_b;
+    float background_a;
+    float world_from_eye[9];  // rotation, row by row
+} frame_params;
+
+TESSERA_SHARED_END
+
+#endif

@@ -1,0 +1,140 @@
+#include "render/split_loop.h"
+
+#include <chrono>
+#include <deque>
+#include <limits>
+#include <memory>
+
+#include "split/host_split.h"
+#include "tessera/error.h"
+
+namespace tessera {
+namespace {
+
+// Iterations enqueued between two tries to hide, and tries whose counts the host has not seen: enough that the device never waits
+// for the host, few enough that the no-ops behind the last batch cost next to nothing.
+constexpr int iterationsPerRound = 4;
+constexpr std::size_t roundsAhead = 2;
+
+// Limits under which the device finds `ready` full whatever it holds, so that all of it is hidden.
+constexpr split_limits hideWhatIsReady{std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max() - 1};
+
+struct Round {
+    cl::Event event;
+    std::unique_ptr<split_state> state;
+};
+
+// Waits for pending reads before their memory goes, also when an exception passes.
+struct Rounds {
+    std::deque<Round> queue;
+    Rounds() = default;
+    Rounds(const Rounds&) = delete;
+    Rounds& operator=(const Rounds&) = delete;
+    ~Rounds() {
+        for (const Round& round : queue) clWaitForEvents(1, &round.event());
+    }
+    split_state waitForOldest() {
+        const Round& round = queue.front();
+        round.event.wait();
+        const split_state state = *round.state;
+        queue.pop_front();
+        return state;
+    }
+};
+
+void report(const SplitLoop& loop, double fraction) {
+    if (loop.progress) loop.progress("split and dice", fraction);
+}
+
+void requireIds(const SplitLoop& loop, std::uint64_t ranges) {
+    const std::uint64_t rate = loop.frame.dice_rate;
+    if (ranges * rate * rate < std::numeric_limits<std::uint32_t>::max()) return;
+    throw Error("breadth has " + std::to_string(ranges) + " ranges to dice at once, more than 32 bits can number; use --method bounded");
+}
+
+void hide(const SplitLoop& loop, const split_limits& limits) {
+    loop.film.enqueueBatch(loop.frame, limits, loop.queues, loop.patches, loop.options.emulateAtomics);
+}
+
+}  // namespace
+
+split_limits boundedLimits(const RenderOptions& options) { return {options.batch, 2 * options.batch}; }
+
+std::uint64_t boundedStack(const RenderOptions& options) { return (static_cast<std::uint64_t>(options.maxDepth) + 1) * options.batch; }
+
+SplitResult runBounded(const SplitLoop& loop) {
+    const split_limits limits = boundedLimits(loop.options);
+    loop.queues.restart();
+    Rounds rounds;
+    SplitResult result;
+    bool over = loop.patches.patches == 0;
+    while (!over) {
+        for (int k = 0; k < iterationsPerRound; ++k) loop.queues.enqueueIteration(loop.frame, limits, loop.patches);
+        hide(loop, limits);
+        auto state = std::make_unique<split_state>();
+        cl::Event event = loop.queues.readStateLater(*state);
+        rounds.queue.push_back({std::move(event), std::move(state)});
+        loop.session.timeline.flush();
+        if (rounds.queue.size() <= roundsAhead) continue;
+        const split_state seen = rounds.waitForOldest();
+        report(loop, static_cast<double>(seen.area_done) / loop.patches.patches);
+        over = splitOver(seen, loop.patches) && seen.ready_count == 0;
+    }
+    while (!rounds.queue.empty()) result.state = rounds.waitForOldest();
+    result.stackPeak = result.state.stack_peak;
+    return result;
+}
+
+SplitResult runBreadth(const SplitLoop& loop) {
+    loop.queues.reserve({1, 1}, 1);
+    loop.queues.restart();
+    SplitResult result;
+    while (!splitOver(result.state, loop.patches)) {
+        const std::uint64_t count = result.state.stack_count + (loop.patches.patches - result.state.next_input);
+        requireIds(loop, count);
+        const auto all = static_cast<std::uint32_t>(count);
+        loop.queues.growStack(2 * count, result.state.stack_count);
+        loop.queues.reserve({all, all}, 0);
+        loop.queues.enqueueIteration(loop.frame, {all, all}, loop.patches);
+        hide(loop, hideWhatIsReady);
+        result.state = loop.queues.readState();
+        report(loop, static_cast<double>(result.state.area_done) / loop.patches.patches);
+    }
+    result.stackPeak = result.state.stack_peak;
+    return result;
+}
+
+SplitResult runCpu(const SplitLoop& loop) {
+    using Clock = std::chrono::steady_clock;
+    loop.queues.reserve({1, loop.options.batch + 1024}, 0);
+    std::vector<float> eyePoints(loop.patches.eyePoints.bytes() / sizeof(float));
+    loop.session.timeline.read(loop.patches.eyePoints.cl(), eyePoints.data(), eyePoints.size() * sizeof(float));
+    HostSplit split(loop.frame, std::move(eyePoints), loop.options.threads);
+    SplitResult result;
+    result.state.next_input = loop.patches.patches;
+    while (true) {
+        const auto start = Clock::now();
+        const std::vector<range_t> ranges = split.next(loop.options.batch);
+        result.hostMs += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+        if (ranges.empty()) break;
+        result.state.ready_count = static_cast<std::uint32_t>(ranges.size());
+        loop.queues.writeReady(ranges);
+        loop.queues.writeState(result.state);
+        hide(loop, hideWhatIsReady);
+        ++result.state.batches;
+        report(loop, split.fractionFed());
+    }
+    const HostSplitCounts counts = split.counts();
+    result.state.ready_count = 0;
+    result.state.processed_low = static_cast<std::uint32_t>(counts.processed);
+    result.state.processed_high = static_cast<std::uint32_t>(counts.processed >> 32);
+    result.state.diced_low = static_cast<std::uint32_t>(counts.diced);
+    result.state.diced_high = static_cast<std::uint32_t>(counts.diced >> 32);
+    result.state.culled_low = static_cast<std::uint32_t>(counts.culled);
+    result.state.culled_high = static_cast<std::uint32_t>(counts.culled >> 32);
+    loop.queues.writeState(result.state);
+    result.stackPeak = counts.stackPeak;
+    return result;
+}
+
+}  // namespace tessera

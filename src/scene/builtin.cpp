@@ -1,0 +1,68 @@
+// The scenes that need no file.
+#include "scene/teapot.h"
+#include "scene/text.h"
+#include "tessera/error.h"
+#include "tessera/scene.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace tessera {
+
+namespace {
+
+// A light at infinity: +z of its transform points at `from`, as seen from the origin.
+Light lightFrom(std::string lightName, LightKind kind, const glm::vec3& from, const glm::vec3& color, float intensity) {
+    Light light;
+    light.name = std::move(lightName);
+    light.kind = kind;
+    light.transform.rotation = lookAt(from, glm::vec3(0.0F), 45.0F).transform.rotation;
+    light.color = color;
+    light.intensity = intensity;
+    return light;
+}
+
+Scene teapotScene() {
+    Scene scene;
+    scene.name = "teapot";
+    scene.meshes.push_back(teapotMesh());
+
+    Object teapot;
+    teapot.name = "teapot";
+    teapot.mesh = scene.meshes.front().name;
+    // The table is z up, the world y up: a quarter turn about x.
+    teapot.transform.rotation = glm::quat(0.70710678F, -0.70710678F, 0.0F, 0.0F);
+    teapot.color = {0.62F, 0.085F, 0.035F};
+    teapot.material = {MaterialKind::plastic, 0.45F, 0.12F};
+    scene.objects.push_back(std::move(teapot));
+
+    scene.lights.push_back(lightFrom("key", LightKind::directional, {-0.6F, 0.65F, 0.8F}, {1.0F, 0.96F, 0.9F}, 0.95F));
+    scene.lights.push_back(lightFrom("fill", LightKind::directional, {0.9F, 0.3F, 0.6F}, {0.75F, 0.85F, 1.0F}, 0.25F));
+    scene.lights.push_back(lightFrom("sky", LightKind::hemi, {0.0F, 1.0F, 0.0F}, {0.85F, 0.92F, 1.0F}, 0.3F));
+
+    Camera camera = lookAt({3.4F, 4.2F, 9.0F}, {0.4F, 1.48F, 0.0F}, 26.0F);
+    camera.name = "camera";
+    scene.cameras.push_back(std::move(camera));
+    return scene;
+}
+
+}  // namespace
+
+const std::vector<std::string_view>& builtinSceneNames() {
+    static const std::vector<std::string_view> names{"teapot"};
+    return names;
+}
+
+bool isBuiltinScene(std::string_view sceneName) {
+    const std::vector<std::string_view>& names = builtinSceneNames();
+    return std::find(names.begin(), names.end(), sceneName) != names.end();
+}
+
+Scene builtinScene(std::string_view sceneName) {
+    if (sceneName == "teapot") return teapotScene();
+    std::string known;
+    for (const std::string_view one : builtinSceneNames()) known += (known.empty() ? "" : ", ") + std::string(one);
+    throw Error("no built-in scene " + quotedName(sceneName) + "; there is: " + known + ", or give the path of a file");
+}
+
+}  // namespace tessera

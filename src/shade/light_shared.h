@@ -1,0 +1,32 @@
+// A light as one frame sees it, in eye space (x right, y up, z the depth along the view axis).
+#ifndef TESSERA_SHADE_LIGHT_SHARED_H
+#define TESSERA_SHADE_LIGHT_SHARED_H
+
+#include "device/types_shared.h"
+
+TESSERA_SHARED_BEGIN
+
+#define LIGHT_POINT 0u
+#define LIGHT_DIRECTIONAL 1u
+#define LIGHT_HEMI 2u
+
+typedef struct {
+    float place[3];     // point: position; directional: unit vector towards the light; hemi: unit vector to the sky
+    float radiance[3];  // colour times intensity
+    uint kind;
+} eye_light;
+
+// Where the planes of a picture begin in its buffer, in floats; NO_PLANE where one is not wanted.
+#define NO_PLANE 0xffffffffu
+
+typedef struct {
+    uint z;
+    uint normal;
+    uint object;
+    uint patch_id;
+    uint uv;
+} picture_planes;
+
+TESSERA_SHARED_END
+
+#endif

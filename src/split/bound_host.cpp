@@ -1,0 +1,46 @@
+#include "split/bound_host.h"
+
+#include <array>
+#include <cmath>
+
+#include "device/lanes_host.h"
+
+// The kernel headers are C: casts and index types are theirs.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wold-style-cast"
+#pragma GCC diagnostic ignored "-Wsign-conversion"
+#pragma GCC diagnostic ignored "-Wunused-function"
+namespace tessera::kernels {
+#define NET_SPACE
+#include "split/bound.clh"
+#undef NET_SPACE
+}  // namespace tessera::kernels
+#pragma GCC diagnostic pop
+
+namespace tessera {
+namespace {
+
+struct Side {
+    int level;
+    float size;
+    float start;
+};
+
+Side sideOf(std::uint32_t side) {
+    const int level = static_cast<int>(side >> SIDE_LEVEL_SHIFT);
+    const float size = std::ldexp(1.0F, -level);
+    return {level, size, static_cast<float>(side & SIDE_INDEX_MASK) * size};
+}
+
+}  // namespace
+
+int boundOnHost(const frame_params& frame, const float* net, int count, const range_t& range) {
+    std::array<float, 60> spread{};  // bound.clh expects 20 places a coordinate
+    for (int c = 0; c < 3; ++c)
+        for (int k = 0; k < count; ++k) spread[static_cast<std::size_t>(c * 20 + k)] = net[c * count + k];
+    const Side u = sideOf(range.u_side);
+    const Side v = sideOf(range.v_side);
+    return kernels::bound_ranges(&frame, spread.data(), 1, u.start, v.start, u.size, v.size, u.level, v.level, count == 20 ? -1 : 0);
+}
+
+}  // namespace tessera

@@ -1,0 +1,90 @@
+// Small scenes that the tests of the .mscene reader start from, and its fuzzer's seeds are made of; what the reader says of bytes.
+#pragma once
+
+#include "formats/mscene.h"
+#include "tessera/error.h"
+#include "tessera/scene.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace tessera {
+
+// A flat patch of side 1, the way Micropolis writes scenes.
+inline Scene plainScene() {
+    Scene scene;
+    scene.meshes.resize(1);
+    Mesh& mesh = scene.meshes.front();
+    mesh.name = "plate";
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4; ++column) {
+            mesh.points.emplace_back(static_cast<float>(column) / 3.0F, static_cast<float>(row) / 3.0F, 0.0F);
+        }
+    }
+    Object object;
+    object.name = "a";
+    object.mesh = mesh.name;
+    object.color = {0.5F, 0.25F, 0.125F};
+    scene.objects.push_back(object);
+    Light light;
+    light.name = "sun";
+    light.intensity = 2.0F;
+    scene.lights.push_back(light);
+    Camera camera;
+    camera.name = "front";
+    camera.transform.translation = {0.5F, 0.5F, 3.0F};
+    scene.cameras.push_back(camera);
+    return scene;
+}
+
+// Both kinds of patches, all kinds of lights and materials, two objects, names beyond ASCII.
+inline Scene richScene() {
+    Scene scene = plainScene();
+    Mesh gregory;
+    gregory.name = "greg";
+    gregory.kind = PatchKind::gregory;
+    for (int i = 0; i < 40; ++i)
+        gregory.points.emplace_back(static_cast<float>(i % 5) * 0.3F, static_cast<float>(i % 7), static_cast<float>(-i));
+    scene.meshes.push_back(gregory);
+    scene.objects[0].material = {MaterialKind::plastic, 0.75F, 0.2F};
+    Object second = scene.objects[0];
+    second.name = "b";
+    second.mesh = gregory.name;
+    second.transform.translation = {1.0F, -2.0F, 0.5F};
+    second.transform.rotation = glm::quat(0.5F, -0.5F, 0.25F, 1.0F);
+    second.material = {MaterialKind::matte, 0.3F, 0.9F};
+    scene.objects.push_back(second);
+    for (const LightKind kind : {LightKind::point, LightKind::hemi}) {
+        Light light = scene.lights[0];
+        light.name = "l\xC3\xA4mp";
+        light.kind = kind;
+        light.color = {1.0F, 0.5F, 0.0F};
+        light.transform.translation = {0.0F, 9.0F, 0.0F};
+        scene.lights.push_back(light);
+    }
+    Camera sideCamera = scene.cameras[0];
+    sideCamera.name = "side";
+    sideCamera.near = 0.5F;
+    sideCamera.far = 50.0F;
+    sideCamera.fovy = 28.5F;
+    scene.cameras.push_back(sideCamera);
+    return scene;
+}
+
+using Bytes = std::vector<std::byte>;
+
+// What the reader says of `bytes`, under the name "file"; empty where it gives a scene.
+inline std::string complaint(std::span<const std::byte> bytes, std::vector<std::string>* warnings = nullptr) {
+    try {
+        static_cast<void>(parseMscene(bytes, "file", warnings));
+        return {};
+    } catch (const Error& error) {
+        return error.what();
+    }
+}
+
+inline bool contains(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+}  // namespace tessera

@@ -1,0 +1,387 @@
+// The program `tessera` as its users meet it: what it prints and writes, and what it does with bad input.
+#include "formats/mscene.h"
+#include "run_program.h"
+#include "tessera/options.h"
+#include "tessera/scene.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <csignal>
+#include <limits>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <ostream>
+#include <random>
+#include <thread>
+#include <tuple>
+
+namespace tessera::test {
+
+namespace {
+
+using nlohmann::json;
+
+class Program : public testing::Test {
+protected:
+    RunningProgram start(const std::vector<std::string>& arguments, RunningProgram::Environment environment = {}) const {
+        // Kernels of the tests stay out of the user's own cache, and are compiled once for all tests.
+        environment.emplace(environment.begin(), "TESSERA_CACHE", TESSERA_TEST_CACHE);
+        return {TESSERA_PROGRAM_PATH, arguments, folder_.path(), environment};
+    }
+
+    Outcome run(const std::vector<std::string>& arguments, const RunningProgram::Environment& environment = {}) const {
+        return start(arguments, environment).wait();
+    }
+
+    // A small teapot: `more` options on top of it.
+    Outcome renderTeapot(const std::vector<std::string>& more) const {
+        std::vector<std::string> arguments{"render", "teapot", "--size", "96x54", "--pixel-samples", "1"};
+        arguments.insert(arguments.end(), more.begin(), more.end());
+        return run(arguments);
+    }
+
+    std::string file(const std::string& name) const { return readFile(folder_.path() / name); }
+
+    void write(const std::string& name, const Scene& scene) const {
+        const std::vector<std::byte> bytes = serializeMscene(scene);
+        std::string text;
+        for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
+        writeFile(folder_.path() / name, text);
+    }
+
+    ScratchFolder folder_;
+};
+
+struct PictureSize {
+    std::uint32_t width = 0;
+    std::uint32_t height = 0;
+};
+
+// From the header that every PNG file begins with.
+PictureSize pngSize(const std::string& bytes) {
+    const auto number = [&bytes](std::size_t at) {
+        std::uint32_t value = 0;
+        for (std::size_t i = at; i < at + 4; ++i) value = value << 8U | static_cast<unsigned char>(bytes.at(i));
+        return value;
+    };
+    EXPECT_EQ(bytes.substr(1, 3), "PNG");
+    return {number(16), number(20)};
+}
+
+void expectSuccess(const Outcome& outcome) {
+    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
+    EXPECT_EQ(outcome.err.find("error"), std::string::npos) << outcome.err;
+}
+
+void expectOneLineError(const Outcome& outcome, int exitCode) {
+    EXPECT_EQ(outcome.signal, 0);
+    EXPECT_EQ(outcome.exitCode, exitCode);
+    EXPECT_EQ(outcome.errorLines(), 1U) << outcome.err;
+    EXPECT_TRUE(outcome.err.starts_with("tessera: error: ")) << outcome.err;
+    EXPECT_EQ(outcome.out, "");
+}
+
+TEST_F(Program, HelpTellsEveryOptionWithItsDefault) {
+    const Outcome outcome = run({"render", "--help"});
+    expectSuccess(outcome);
+    for (const std::string option : {"--output",
+                                     "--size",
+                                     "--camera",
+                                     "--look-at",
+                                     "--fov",
+                                     "--method",
+                                     "--batch",
+                                     "--mode",
+                                     "--split-bound",
+                                     "--dice-rate",
+                                     "--max-depth",
+                                     "--background",
+                                     "--pixel-samples",
+                                     "--crop",
+                                     "--aov",
+                                     "--device",
+                                     "--threads",
+                                     "--frames",
+                                     "--stats",
+                                     "--trace",
+                                     "--quiet",
+                                     "--cull-backfaces",
+                                     "--emulate-atomics",
+                                     "--cache-dir"}) {
+        EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
+    }
+    const RenderOptions defaults;
+    EXPECT_NE(outcome.out.find("=" + std::to_string(defaults.width) + "x" + std::to_string(defaults.height)), std::string::npos);
+    EXPECT_NE(outcome.out.find("=" + std::to_string(defaults.batch)), std::string::npos);
+    EXPECT_NE(outcome.out.find("=" + std::string(name(defaults.method))), std::string::npos);
+}
+
+TEST_F(Program, EveryCommandHasHelpAndTheProgramAVersion) {
+    for (const std::vector<std::string>& arguments :
+         {std::vector<std::string>{"--help"}, {"info", "--help"}, {"devices", "-h"}, {"--version"}}) {
+        const Outcome outcome = run(arguments);
+        expectSuccess(outcome);
+        EXPECT_FALSE(outcome.out.empty());
+        EXPECT_EQ(outcome.err, "");
+    }
+}
+
+TEST_F(Program, InfoTellsWhatASceneHolds) {
+    const Outcome outcome = run({"info", "teapot", "--json"});
+    expectSuccess(outcome);
+    const json info = json::parse(outcome.out);
+    const Scene teapot = builtinScene("teapot");
+    EXPECT_EQ(info.at("patches"), teapot.placedPatchCount());
+    EXPECT_EQ(info.at("patch_types").at("bezier"), teapot.placedPatchCount());
+    EXPECT_EQ(info.at("cameras").size(), teapot.cameras.size());
+    EXPECT_EQ(info.at("lights").size(), teapot.lights.size());
+    EXPECT_EQ(info.at("objects").size(), teapot.objects.size());
+    EXPECT_FLOAT_EQ(info.at("bounds").at("upper").at(1).get<float>(), worldBounds(teapot).upper.y);
+    const Outcome text = run({"info", "teapot"});
+    expectSuccess(text);
+    EXPECT_NE(text.out.find("'" + teapot.cameras.front().name + "'"), std::string::npos) << text.out;
+}
+
+TEST_F(Program, InfoKeepsNamesFromDrivingTheTerminal) {
+    Scene scene = builtinScene("teapot");
+    scene.cameras.front().name = "a\nb\x1b[2Jc";
+    write("odd.mscene", scene);
+    const Outcome text = run({"info", "odd.mscene"});
+    expectSuccess(text);
+    EXPECT_EQ(text.out.find('\x1b'), std::string::npos);
+    EXPECT_EQ(text.out.find("a\nb"), std::string::npos);
+    EXPECT_TRUE(json::accept(run({"info", "odd.mscene", "--json"}).out));
+}
+
+TEST_F(Program, DevicesListsADefaultDevice) {
+    const Outcome outcome = run({"devices", "--json"});
+    expectSuccess(outcome);
+    const json devices = json::parse(outcome.out).at("devices");
+    EXPECT_EQ(std::count_if(devices.begin(), devices.end(), [](const json& device) { return device.at("default").get<bool>(); }), 1);
+    expectSuccess(run({"devices"}));
+}
+
+TEST_F(Program, WithoutAnyDeviceItSaysWhatToInstall) {
+    const RunningProgram::Environment noDrivers{{"OCL_ICD_VENDORS", folder_.path().string()}};
+    const Outcome listed = run({"devices"}, noDrivers);
+    expectOneLineError(listed, 1);
+    EXPECT_NE(listed.err.find("pocl-opencl-icd"), std::string::npos);
+    expectOneLineError(run({"render", "teapot", "-o", "k.png"}, noDrivers), 1);
+    EXPECT_EQ(json::parse(run({"devices", "--json"}, noDrivers).out).at("devices").size(), 0U);
+    EXPECT_EQ(folder_.fileNames().size(), 0U);
+}
+
+TEST_F(Program, StatsHoldEveryPromisedField) {
+    expectSuccess(renderTeapot({"-o", "k.png", "--frames", "3", "--stats", "stats.json", "--batch", "5000"}));
+    const json stats = json::parse(file("stats.json"));
+    for (const std::string field : {"device", "method", "scene", "camera", "version"}) EXPECT_TRUE(stats.at(field).is_string()) << field;
+    for (const std::string field :
+         {"width", "height", "batch", "patches", "ranges_processed", "ranges_diced", "ranges_culled", "stack_peak", "iterations", "batches",
+          "micropolygons", "pixels_covered", "pixel_samples", "split_ms", "frame_ms", "build_ms", "device_bytes_peak"}) {
+        EXPECT_TRUE(stats.at(field).is_number()) << field;
+    }
+    EXPECT_EQ(stats.at("width"), 96);
+    EXPECT_EQ(stats.at("height"), 54);
+    EXPECT_EQ(stats.at("batch"), 5000);
+    EXPECT_EQ(stats.at("method"), "bounded");
+    EXPECT_EQ(stats.at("patches"), 32);
+    EXPECT_GT(stats.at("pixels_covered").get<int>(), 0);
+    EXPECT_FALSE(stats.at("kernel_ms").empty());
+}
+
+TEST_F(Program, FramesReportTheMedianFrame) {
+    const Outcome outcome = renderTeapot({"-o", "k.png", "--frames", "5", "--stats", "-"});
+    expectSuccess(outcome);
+    const json stats = json::parse(outcome.out);
+    auto times = stats.at("frame_ms_all").get<std::vector<double>>();
+    ASSERT_EQ(times.size(), 5U);
+    std::sort(times.begin(), times.end());
+    EXPECT_EQ(stats.at("frame_ms").get<double>(), times[2]);
+}
+
+TEST_F(Program, TraceHoldsEveryKernelOnTracksWithoutOverlap) {
+    expectSuccess(renderTeapot({"-o", "k.png", "--trace", "trace.json", "--stats", "stats.json"}));
+    const json events = json::parse(file("trace.json")).at("traceEvents");
+    std::map<int, std::vector<std::pair<double, double>>> tracks;
+    std::set<std::string> executed;
+    std::set<std::string> trackNames;
+    for (const json& event : events) {
+        if (event.at("ph") == "M") trackNames.insert(event.at("args").at("name"));
+        if (event.at("ph") != "X") continue;
+        const double start = event.at("ts");
+        tracks[event.at("tid")].emplace_back(start, start + event.at("dur").get<double>());
+        if (event.at("cat") != "queue") executed.insert(event.at("name"));
+    }
+    for (const std::string wanted : {"queue", "kernels", "transfers"}) EXPECT_TRUE(trackNames.contains(wanted)) << wanted;
+    const json stats = json::parse(file("stats.json"));
+    for (const auto& [kernel, milliseconds] : stats.at("kernel_ms").items()) EXPECT_TRUE(executed.contains(kernel)) << kernel;
+    for (auto& [track, slices] : tracks) {
+        std::sort(slices.begin(), slices.end());
+        for (std::size_t i = 1; i < slices.size(); ++i) EXPECT_LE(slices[i - 1].second, slices[i].first + 0.002) << "track " << track;
+    }
+}
+
+TEST_F(Program, CropWritesTheWindowAlone) {
+    expectSuccess(renderTeapot({"-o", "k.png", "--crop", "0.25,0.75,0.5,1"}));
+    const PictureSize size = pngSize(file("k.png"));
+    EXPECT_EQ(size.width, 48U);
+    EXPECT_EQ(size.height, 27U);
+}
+
+TEST_F(Program, QuietPrintsNothing) {
+    Scene scene = builtinScene("teapot");
+    scene.cameras.clear();
+    write("blind.mscene", scene);
+    // From no caches at all: a driver's compiler must have nothing to say about the kernels either.
+    const ScratchFolder cold;
+    const RunningProgram::Environment noCaches{{"TESSERA_CACHE", cold.path().string()}, {"POCL_CACHE_DIR", cold.path().string()}};
+    const Outcome quiet = run({"render", "blind.mscene", "-o", "k.png", "--size", "32x18", "--aov", "Z", "--quiet"}, noCaches);
+    expectSuccess(quiet);
+    EXPECT_EQ(quiet.out + quiet.err, "");
+    // And without it, the same has something to tell.
+    const Outcome told = run({"render", "blind.mscene", "-o", "k.png", "--size", "32x18", "--aov", "Z"});
+    expectSuccess(told);
+    EXPECT_EQ(told.errorLines(), 3U) << told.err;
+    EXPECT_NE(told.err.find("no camera"), std::string::npos) << told.err;
+    EXPECT_NE(told.err.find("32x18"), std::string::npos) << told.err;
+}
+
+TEST_F(Program, LookAtMovesTheCameraAndNegativeNumbersAreNoOptions) {
+    expectSuccess(renderTeapot({"-o", "front.png", "--stats", "front.json"}));
+    expectSuccess(renderTeapot({"-o", "away.png", "--look-at", "-.5,20,0,-1,40,0", "--stats", "away.json"}));
+    EXPECT_GT(json::parse(file("front.json")).at("pixels_covered"), 0);
+    EXPECT_EQ(json::parse(file("away.json")).at("pixels_covered"), 0);
+    EXPECT_EQ(json::parse(file("away.json")).at("camera"), "look-at");
+}
+
+TEST_F(Program, FovOverridesTheCameras) {
+    expectSuccess(renderTeapot({"-o", "a.png", "--stats", "narrow.json"}));
+    expectSuccess(renderTeapot({"-o", "b.png", "--stats", "wide.json", "--fov", "100"}));
+    EXPECT_GT(json::parse(file("narrow.json")).at("pixels_covered"), json::parse(file("wide.json")).at("pixels_covered"));
+}
+
+TEST_F(Program, ASceneWithoutPatchesGivesTheBackgroundAndANote) {
+    Scene scene = builtinScene("teapot");
+    scene.objects.clear();
+    write("bare.mscene", scene);
+    const Outcome outcome = run({"render", "bare.mscene", "-o", "k.png", "--size", "32x18"});
+    expectSuccess(outcome);
+    EXPECT_NE(outcome.err.find("no patches"), std::string::npos) << outcome.err;
+    EXPECT_EQ(pngSize(file("k.png")).width, 32U);
+    EXPECT_EQ(folder_.fileNames(), (std::set<std::string>{"bare.mscene", "k.png"}));
+}
+
+TEST_F(Program, AFailedRenderLeavesTheOldPictureAlone) {
+    writeFile(folder_.path() / "k.png", "old");
+    expectOneLineError(renderTeapot({"-o", "k.png", "--camera", "none such"}), 1);
+    EXPECT_EQ(file("k.png"), "old");
+    EXPECT_EQ(folder_.fileNames().size(), 1U);
+}
+
+TEST_F(Program, InterruptEndsItWithoutFiles) {
+    RunningProgram program = start({"render", "teapot", "-o", "k.png", "--frames", "100000", "--stats", "s.json"});
+    // Long enough to be within a frame on any machine; where it is not, the outcome is the same.
+    std::this_thread::sleep_for(std::chrono::seconds(1));
+    program.send(SIGINT);
+    const Outcome outcome = program.wait();
+    EXPECT_EQ(outcome.signal, SIGINT) << outcome.err;
+    EXPECT_EQ(folder_.fileNames().size(), 0U);
+}
+
+// A command line that must fail: `says` is a part of the message. NAME.mscene files are made by the fixture.
+struct BadInput {
+    std::string name;
+    int exitCode = 1;
+    std::vector<std::string> arguments;
+    std::string says;
+};
+
+void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << bad.name; }
+
+class ProgramRefuses : public Program, public testing::WithParamInterface<BadInput> {
+protected:
+    void SetUp() override {
+        const Scene sound = builtinScene("teapot");
+        write("sound.mscene", sound);
+        const std::string bytes = file("sound.mscene");
+        writeFile(folder_.path() / "truncated.mscene", bytes.substr(0, bytes.size() / 2));
+        writeFile(folder_.path() / "empty.mscene", "");
+        writeFile(folder_.path() / "zeros.mscene", std::string(60000, '\0'));
+        std::mt19937 generator(7);
+        std::string noise(5000, '\0');
+        std::generate(noise.begin(), noise.end(), [&generator] { return static_cast<char>(generator() & 0xFFU); });
+        writeFile(folder_.path() / "random.mscene", noise);
+        std::filesystem::create_directory(folder_.path() / "folder.png");
+        writeDamaged("nan.mscene", [](Scene& scene) { scene.meshes[0].points[5].y = std::numeric_limits<float>::quiet_NaN(); });
+        writeDamaged("infinite.mscene", [](Scene& scene) { scene.meshes[0].points[5].y = std::numeric_limits<float>::infinity(); });
+        writeDamaged("lists.mscene", [](Scene& scene) { scene.meshes[0].points.pop_back(); });
+        writeDamaged("meshless.mscene", [](Scene& scene) { scene.objects[0].mesh = "none such"; });
+    }
+
+    template <typename Damage>
+    void writeDamaged(const std::string& name, Damage damage) const {
+        Scene scene = builtinScene("teapot");
+        damage(scene);
+        write(name, scene);
+    }
+};
+
+TEST_P(ProgramRefuses, WithOneLineAndNoFile) {
+    const std::set<std::string> before = folder_.fileNames();
+    const Outcome outcome = run(GetParam().arguments);
+    expectOneLineError(outcome, GetParam().exitCode);
+    EXPECT_NE(outcome.err.find(GetParam().says), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.exitCode == 2, outcome.err.find("--help'") != std::string::npos) << outcome.err;
+    EXPECT_EQ(folder_.fileNames(), before);
+}
+
+BadInput badScene(const std::string& name) {
+    return {name, 1, {"render", name + ".mscene", "-o", "k.png", "--size", "32x18"}, name + ".mscene"};
+}
+
+BadInput badOption(const std::string& name, const std::string& option, const std::string& value, const std::string& says,
+                   int exitCode = 2) {
+    return {name, exitCode, {"render", "teapot", "-o", "k.png", option, value}, says};
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ProgramRefuses,
+                         testing::Values(badScene("truncated"), badScene("empty"), badScene("zeros"), badScene("random"), badScene("nan"),
+                                         badScene("infinite"), badScene("lists"), badScene("meshless"), badScene("absent"),
+                                         BadInput{"folder", 1, {"render", "folder.png", "-o", "k.png"}, "folder.png"},
+                                         BadInput{"infoOfRandom", 1, {"info", "random.mscene"}, "random.mscene"},
+                                         BadInput{"infoOfNothing", 1, {"info", "none such", "--json"}, "teapot"}),
+                         [](const auto& tested) { return tested.param.name; });
+
+INSTANTIATE_TEST_SUITE_P(
+    Options, ProgramRefuses,
+    testing::Values(badOption("noSize", "--size", "0x0", "1 to 65536"), badOption("hugeSize", "--size", "1000000x1000000", "1 to 65536"),
+                    badOption("endlessSize", "--size", "99999999999999999999x1", "1 to 65536"),
+                    badOption("halfSize", "--size", "640", "WIDTHxHEIGHT"), badOption("wordySize", "--size", "640x480px", "WIDTHxHEIGHT"),
+                    badOption("negativeSize", "--size", "-1x5", "WIDTHxHEIGHT"),
+                    badOption("largestPicture", "--size", "65536x65536", "", 1), badOption("device", "--device", "77", "77", 1),
+                    badOption("negativeDevice", "--device", "-2", "--device"), badOption("camera", "--camera", "none such", "camera", 1),
+                    badOption("aov", "--aov", "Z,depth", "object.id"), badOption("method", "--method", "fast", "bounded"),
+                    badOption("mode", "--mode", "modern", "classical"), badOption("noSamples", "--pixel-samples", "0", "1 to 16"),
+                    badOption("noBatch", "--batch", "0", "1 to 1048576"), badOption("negativeBatch", "--batch", "-1", "--batch"),
+                    badOption("diceRate", "--dice-rate", "33", "1 to 32"), badOption("depth", "--max-depth", "25", "0 to 24"),
+                    badOption("nanBound", "--split-bound", "nan", "--split-bound"), badOption("noBound", "--split-bound", "0", "bound"),
+                    badOption("flatView", "--fov", "180", "180"), badOption("shortLook", "--look-at", "1,2,3", "6"),
+                    badOption("blindLook", "--look-at", "1,1,1,1,1,1", "--look-at"), badOption("emptyCrop", "--crop", "0.5,0.5,0,1", "rop"),
+                    badOption("outerCrop", "--crop", "0,2,0,1", "rop"), badOption("background", "--background", "1,0", "3 to 4"),
+                    badOption("noFrames", "--frames", "0", "--frames"), badOption("stats", "--stats", "/none/such/s.json", "/none/such", 1),
+                    badOption("trace", "--trace", "/none/such/t.json", "/none/such", 1),
+                    badOption("sameFile", "--stats", "./k.png", "same file"), badOption("unknown", "--frobnicate", "1", "--frobnicate"),
+                    BadInput{"nowhere", 1, {"render", "teapot", "-o", "/none/such/k.png"}, "/none/such"},
+                    BadInput{"ontoFolder", 1, {"render", "teapot", "-o", "folder.png"}, "folder.png"},
+                    BadInput{"format", 1, {"render", "teapot", "-o", "k.gif"}, ".exr"},
+                    BadInput{"noOutput", 2, {"render", "teapot"}, "--output"},
+                    BadInput{"toStdout", 2, {"render", "teapot", "-o", "-"}, "standard output"},
+                    BadInput{"noScene", 2, {"render", "-o", "k.png"}, "SCENE"}, BadInput{"noCommand", 2, {}, "command"},
+                    BadInput{"command", 2, {"frobnicate"}, "frobnicate"}),
+    [](const auto& tested) { return tested.param.name; });
+
+}  // namespace
+
+}  // namespace tessera::test

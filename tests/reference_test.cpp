@@ -1,0 +1,234 @@
+// Tests of the reference surfaces themselves: closed forms, derivatives, symmetries and the boxes of pieces.
+#include "patch_eval.h"
+#include "patch_piece.h"
+#include "sample_meshes.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace tessera::reference {
+namespace {
+
+// Control values of 1, t, t^2 and t^3 as cubics.
+constexpr std::array<std::array<double, 4>, 4> power{{{1, 1, 1, 1}, {0, 1.0 / 3, 2.0 / 3, 1}, {0, 0, 1.0 / 3, 1}, {0, 0, 0, 1}}};
+
+// The patch (u, v, u^m v^n).
+std::vector<glm::dvec3> graphPatch(std::size_t m, std::size_t n) {
+    std::vector<glm::dvec3> points;
+    for (std::size_t j = 0; j < 4; ++j)
+        for (std::size_t i = 0; i < 4; ++i) points.emplace_back(power[1][i], power[1][j], power[m][i] * power[n][j]);
+    return points;
+}
+
+std::vector<glm::dvec3> rationalPatch(std::uint64_t seed) {
+    return patchPoints(parted(asGregory(bumpyBezierMesh(seed, 1)), 0.3, seed + 1000), 0);
+}
+
+void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
+    EXPECT_LE(glm::length(a - b), tolerance) << "(" << a.x << ", " << a.y << ", " << a.z << ") and (" << b.x << ", " << b.y << ", " << b.z
+                                             << ")";
+}
+
+TEST(ReferenceSurface, BezierPatchOfAPolynomialIsThatPolynomial) {
+    const std::vector<glm::dvec3> points = graphPatch(3, 2);
+    for (const double u : {0.0, 0.1, 0.5, 0.73, 1.0}) {
+        for (const double v : {0.0, 0.2, 0.61, 1.0}) {
+            const SurfacePoint s = evaluate(PatchKind::bezier, points, u, v);
+            expectNear(s.position, {u, v, u * u * u * v * v}, 1e-15);
+            expectNear(s.du, {1, 0, 3 * u * u * v * v}, 1e-14);
+            expectNear(s.dv, {0, 1, 2 * u * u * u * v}, 1e-14);
+            expectNear(unitNormal(PatchKind::bezier, points, u, v), glm::normalize(glm::cross(s.du, s.dv)), 1e-14);
+        }
+    }
+}
+
+TEST(ReferenceSurface, DerivativesAreTheLimitsOfDifferences) {
+    Random random(7);
+    const double h = 1e-5;
+    for (std::uint64_t seed = 0; seed < 20; ++seed) {
+        const bool rational = seed % 2 == 1;
+        const PatchKind kind = rational ? PatchKind::gregory : PatchKind::bezier;
+        const std::vector<glm::dvec3> points = rational ? rationalPatch(seed) : patchPoints(bumpyBezierMesh(seed, 1), 0);
+        for (int k = 0; k < 50; ++k) {
+            const double u = random.between(0.01, 0.99);
+            const double v = random.between(0.01, 0.99);
+            const SurfacePoint s = evaluate(kind, points, u, v);
+            const glm::dvec3 du = (evaluate(kind, points, u + h, v).position - evaluate(kind, points, u - h, v).position) / (2 * h);
+            const glm::dvec3 dv = (evaluate(kind, points, u, v + h).position - evaluate(kind, points, u, v - h).position) / (2 * h);
+            // h^2 times a third derivative that grows like one over the distance from a corner, and rounding over h.
+            expectNear(s.du, du, 1e-6);
+            expectNear(s.dv, dv, 1e-6);
+        }
+    }
+}
+
+TEST(ReferenceSurface, GregoryCornersHaveTheTangentsOfTheirEdges) {
+    const std::vector<glm::dvec3> p = rationalPatch(3);
+    const std::array<glm::dvec2, 4> corner{glm::dvec2(0, 0), {1, 0}, {1, 1}, {0, 1}};
+    const std::array<glm::dvec2, 4> plus{glm::dvec2(1, 0), {0, 1}, {-1, 0}, {0, -1}};  // direction of e+ in (u, v)
+    for (std::size_t k = 0; k < 4; ++k) {
+        const glm::dvec2 minus = plus[(k + 3) % 4] * -1.0;
+        for (const double inset : {0.0, 1e-9}) {
+            const glm::dvec2 at = corner[k] + inset * (glm::dvec2(0.5) - corner[k]);
+            const SurfacePoint s = evaluate(PatchKind::gregory, p, at.x, at.y);
+            expectNear(s.position, p[k], 1e-8);
+            expectNear(plus[k].x * s.du + plus[k].y * s.dv, 3.0 * (p[4 + k] - p[k]), 1e-7);
+            expectNear(minus.x * s.du + minus.y * s.dv, 3.0 * (p[8 + k] - p[k]), 1e-7);
+        }
+    }
+}
+
+// What makes neighbours smooth: the ribbon along border k (corner k to k + 1) is made of f+k and f-(k+1) alone.
+TEST(ReferenceSurface, GregoryBordersDependOnTheirOwnFacePointsAlone) {
+    const std::vector<glm::dvec3> points = rationalPatch(5);
+    const std::array<glm::dvec2, 4> start{glm::dvec2(0, 0), {1, 0}, {1, 1}, {0, 1}};
+    for (std::size_t border = 0; border < 4; ++border) {
+        const glm::dvec2 at = glm::mix(start[border], start[(border + 1) % 4], 0.3);
+        const SurfacePoint before = evaluate(PatchKind::gregory, points, at.x, at.y);
+        for (std::size_t face = 12; face < 20; ++face) {
+            std::vector<glm::dvec3> moved = points;
+            moved[face] += glm::dvec3(0.1, 0.2, 0.3);
+            const SurfacePoint after = evaluate(PatchKind::gregory, moved, at.x, at.y);
+            const double change = glm::length(after.du - before.du) + glm::length(after.dv - before.dv);
+            const bool own = face == 12 + border || face == 16 + (border + 1) % 4;
+            EXPECT_EQ(change > 1e-14, own) << "border " << border << ", face point " << face << ": " << change;
+        }
+    }
+}
+
+TEST(ReferenceSurface, GregoryPatchTurnedByOneCornerIsTheSameSurface) {
+    const std::vector<glm::dvec3> points = rationalPatch(11);
+    std::vector<glm::dvec3> turned(20);
+    for (std::size_t group = 0; group < 5; ++group)
+        for (std::size_t k = 0; k < 4; ++k) turned[4 * group + k] = points[4 * group + (k + 1) % 4];
+    for (const glm::dvec2 at : {glm::dvec2(0.2, 0.3), {0.9, 0.05}, {0.0, 0.4}, {1.0, 1.0}}) {
+        // The turned patch starts at p1 and runs along v first.
+        const SurfacePoint a = evaluate(PatchKind::gregory, turned, at.x, at.y);
+        const SurfacePoint b = evaluate(PatchKind::gregory, points, 1.0 - at.y, at.x);
+        expectNear(a.position, b.position, 1e-14);
+        expectNear(a.du, b.dv, 1e-13);
+        expectNear(a.dv, -b.du, 1e-13);
+    }
+}
+
+TEST(ReferenceSurface, GregoryPatchFlippedOverTheDiagonalIsTheSameSurface) {
+    const std::vector<glm::dvec3> points = rationalPatch(12);
+    std::vector<glm::dvec3> flipped(20);
+    const std::array<std::size_t, 5> group{0, 2, 1, 4, 3};  // e+ and e- change places, f+ and f- likewise
+    const std::array<std::size_t, 4> corner{0, 3, 2, 1};
+    for (std::size_t g = 0; g < 5; ++g)
+        for (std::size_t k = 0; k < 4; ++k) flipped[4 * g + k] = points[4 * group[g] + corner[k]];
+    for (const glm::dvec2 at : {glm::dvec2(0.2, 0.3), {0.9, 0.05}, {0.0, 0.4}}) {
+        const SurfacePoint a = evaluate(PatchKind::gregory, flipped, at.x, at.y);
+        const SurfacePoint b = evaluate(PatchKind::gregory, points, at.y, at.x);
+        expectNear(a.position, b.position, 1e-14);
+        expectNear(a.du, b.dv, 1e-13);
+        expectNear(a.dv, b.du, 1e-13);
+    }
+}
+
+TEST(ReferenceSurface, BezierPatchAsGregoryIsTheSameSurface) {
+    Random random(1);
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        const std::vector<glm::dvec3> bezier = patchPoints(bumpyBezierMesh(seed, 1), 0);
+        const std::array<glm::dvec3, 20> gregory = gregoryFromBezier(bezier);
+        for (int k = 0; k < 30; ++k) {
+            const double u = random.unit();
+            const double v = k < 3 ? 0.0 : random.unit();
+            const SurfacePoint a = evaluate(PatchKind::bezier, bezier, u, v);
+            const SurfacePoint b = evaluate(PatchKind::gregory, gregory, u, v);
+            expectNear(a.position, b.position, 1e-14);
+            expectNear(a.du, b.du, 1e-13);
+            expectNear(a.dv, b.dv, 1e-13);
+        }
+    }
+}
+
+// A quarter of a bowl around its lowest point: row v = 0 is that point four times.
+std::vector<glm::dvec3> bowlPatch() {
+    const std::array<glm::dvec2, 4> arc{glm::dvec2(1, 0), {1, 0.5522847498}, {0.5522847498, 1}, {0, 1}};
+    std::vector<glm::dvec3> points;
+    for (std::size_t j = 0; j < 4; ++j)
+        for (const glm::dvec2& a : arc) points.emplace_back(power[1][j] * a, power[2][j]);
+    return points;
+}
+
+TEST(ReferenceSurface, NormalAtAPoleIsTheLimit) {
+    for (const double u : {0.0, 0.3, 1.0}) expectNear(unitNormal(PatchKind::bezier, bowlPatch(), u, 0.0), {0, 0, -1}, 1e-8);
+    const glm::dvec3 beside = unitNormal(PatchKind::bezier, bowlPatch(), 0.5, 1e-6);
+    expectNear(beside, {0, 0, -1}, 1e-5);
+}
+
+TEST(ReferenceSurface, PatchWithoutAreaHasNoNormal) {
+    const std::vector<glm::dvec3> point(16, glm::dvec3(1, 2, 3));
+    expectNear(unitNormal(PatchKind::bezier, point, 0.5, 0.5), glm::dvec3(0.0), 0.0);
+    std::vector<glm::dvec3> line;
+    for (int i = 0; i < 16; ++i) line.emplace_back(i, 0, 0);
+    expectNear(unitNormal(PatchKind::bezier, line, 0.2, 0.7), glm::dvec3(0.0), 0.0);
+}
+
+// A Gregory patch of nothing but one blend, where the pads are closest to what they hold.
+std::vector<glm::dvec3> loneBlend() {
+    std::vector<glm::dvec3> points(20, glm::dvec3(0.0));
+    points[12] = {0.5, -0.5, 0.25};
+    points[16] = -points[12];
+    return points;
+}
+
+// A piece reached by halving: at random, or always towards the corner at (0, 0), where blends bend most.
+Piece somePiece(const PatchShape& shape, Random& random, int cuts, bool towardsCorner) {
+    Piece piece = wholePiece(shape);
+    for (int i = 0; i < cuts; ++i) {
+        const auto [first, second] = halves(piece, i % 2 == 0);
+        piece = towardsCorner || random.unit() < 0.5 ? first : second;
+    }
+    return piece;
+}
+
+void expectWithin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& pad, const char* what) {
+    const glm::dvec3 excess = glm::abs(a - b) - pad;
+    EXPECT_LE(std::max({excess.x, excess.y, excess.z}), 1e-13) << what;
+}
+
+// The surface stays within the pads of the patch over the enclosure's net, and so of that net's hull.
+TEST(ReferencePiece, EnclosesTheSurfaceAndItsDerivatives) {
+    Random random(99);
+    for (std::uint64_t seed = 0; seed < 200; ++seed) {
+        const PatchKind kind = seed % 4 == 0 ? PatchKind::bezier : PatchKind::gregory;
+        const std::vector<glm::dvec3> gregory = seed % 4 == 1 ? loneBlend() : rationalPatch(seed);
+        const PatchShape shape = makeShape(kind, kind == PatchKind::bezier ? patchPoints(bumpyBezierMesh(seed, 1), 0) : gregory);
+        const Piece piece = somePiece(shape, random, static_cast<int>(seed % 12), seed % 3 == 0);
+        const Enclosure enclosure = enclose(shape, piece);
+        const glm::dvec2 width = piece.rectangle.width();
+        for (int k = 0; k < 100; ++k) {
+            const bool corner = k < 20;
+            const glm::dvec2 local(corner ? k % 2 : random.unit(), corner ? k / 2 % 2 : random.unit());
+            const glm::dvec2 at = piece.rectangle.lower + width * local;
+            const SurfacePoint s = evaluate(kind, shape.points, at.x, at.y);
+            const SurfacePoint n = evaluate(PatchKind::bezier, enclosure.net, local.x, local.y);
+            expectWithin(s.position, n.position, enclosure.pad, "position");
+            expectWithin(width.x * s.du, n.du, enclosure.slopePadU, "du");
+            expectWithin(width.y * s.dv, n.dv, enclosure.slopePadV, "dv");
+        }
+    }
+}
+
+// Without this the search would not end: the box must shrink onto the surface faster than the piece.
+TEST(ReferencePiece, PaddingFallsWithTheSquareOfTheWidth) {
+    const PatchShape shape = makeShape(PatchKind::gregory, rationalPatch(2));
+    Piece piece = wholePiece(shape);
+    double before = glm::length(enclose(shape, piece).pad);
+    for (int i = 0; i < 6; ++i) {
+        piece = halves(halves(piece, true).first, false).first;
+        const double now = glm::length(enclose(shape, piece).pad);
+        EXPECT_NEAR(now, before / 4, 1e-12);
+        before = now;
+    }
+}
+
+}  // namespace
+}  // namespace tessera::reference
