@@ -1,6 +1,6 @@
 // dice_hide: a work-group takes a range at a time, evaluates its grid into local memory and hides its micropolygons.
 // In:     ready (state->ready_count ranges), eye_points.
-// Out:    samples, touched (film/film.clh). Ids are 1 + range * rate^2 + micropolygon, micropolygons row by row along u.
+// Out:    samples, touched (film/film.clh), with ids of micropolygons as film/batch.clh packs them.
 // Runs:   when `ready` has too little room for another iteration, or nothing is left to split; else it returns at once.
 // Bound:  no global memory beyond the film; a grid of at most 33 x 33 vertices of 12 bytes in local memory.
 // The grid holds 24.8 fixed-point screen positions (as bits in floats) and 1/z; where a vertex is nearer than the near plane or
@@ -63,8 +63,8 @@ static inline void snap_grid(const frame_params* frame, grid_domain domain, glob
         const float guard = GUARD_CELLS * 256.0f;
         vint good = vle((vfloat)(frame->near_plane), p.z) & vle(fmax(fabs(x), fabs(y)), (vfloat)(guard));
         bad |= ~good & vlt(i + vlane_index(), (vint)(vertices));
-        vint fixed_x = vto_int_nearest(x + frame->raster_x) - frame->raster_x0;
-        vint fixed_y = vto_int_nearest(frame->raster_y - y) - frame->raster_y0;
+        vint fixed_x = film_snap(x + frame->raster_x) - frame->raster_x0;
+        vint fixed_y = film_snap(frame->raster_y - y) - frame->raster_y0;
         store_lanes(vas_float(fixed_x), grid.x + i);
         store_lanes(vas_float(fixed_y), grid.y + i);
         store_lanes(w, grid.w + i);
@@ -147,14 +147,14 @@ static inline void hide_snapped_grid(const frame_params* frame, hide_target* tar
         lane_quads q = load_quads(grid, vertex, side);
         q.active = vlt(column + lane_column, (vint)(rate)) & vlt(row + lane_row, (vint)(rate));
         vint large = raster_bounds(frame, &q);
-        vint places = (row + lane_row) * rate + column + lane_column;
-        if (vany(q.active)) raster_quads(frame, target, q, (int)first_id + places);
+        vint ids = (int)first_id + ((row + lane_row) << (int)frame->rate_bits) + column + lane_column;
+        if (vany(q.active)) raster_quads(frame, target, q, ids);
         if (vany(large)) {
-            int lanes[LANES], numbers[LANES];
+            int lanes[LANES], names[LANES];
             store_lanes(large, lanes);
-            store_lanes(places, numbers);
+            store_lanes(ids, names);
             for (int k = 0; k < LANES; ++k)
-                if (lanes[k]) hide_large(frame, target, grid, numbers[k] + numbers[k] / rate, first_id + (uint)numbers[k]);
+                if (lanes[k]) hide_large(frame, target, grid, vertex + k / BLOCK_COLUMNS * side + k % BLOCK_COLUMNS, (uint)names[k]);
         }
     }
 }
@@ -163,11 +163,13 @@ static inline void hide_eye_grid(const frame_params* frame, hide_target* target,
     int rate = (int)frame->dice_rate;
     int side = rate + 1;
     for (int i = (int)get_local_id(0); i < rate * rate; i += GROUP) {
-        int vertex = i + i / rate;
+        int row = i / rate;
+        int vertex = i + row;
+        uint id = first_id + (uint)((row << (int)frame->rate_bits) + i - row * rate);
         wide_point a = eye_vertex(grid, vertex), b = eye_vertex(grid, vertex + 1);
         wide_point c = eye_vertex(grid, vertex + side + 1), d = eye_vertex(grid, vertex + side);
-        wide_clip_and_cover(frame, target, a, b, c, first_id + (uint)i);
-        wide_clip_and_cover(frame, target, a, c, d, first_id + (uint)i);
+        wide_clip_and_cover(frame, target, a, b, c, id);
+        wide_clip_and_cover(frame, target, a, c, d, id);
     }
 }
 
@@ -182,14 +184,22 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void dice_hide(frame_p
     target.samples = samples;
     target.touched = touched;
     target.pass = pass;
+    target.tile_samples = (uint)(frame.tile_cells * frame.tile_cells);
     target.hits = 0;
     uint ranges = batch_to_hide(&frame, state, limits);
-    for (uint r = (uint)get_group_id(0); r < ranges; r += (uint)get_num_groups(0)) {
+    // Neighbours in `ready` are mostly neighbours on the screen: a group takes a run of them, so that their samples stay in its cache,
+    // but short enough that each group has several runs.
+    uint groups = (uint)get_num_groups(0);
+    uint run = clamp(ranges / (4u * groups), 1u, 64u);
+    for (uint step = 0u;; ++step) {
+        uint r = ((step / run) * groups + (uint)get_group_id(0)) * run + step % run;
+        if (r - step % run >= ranges) break;
+        if (r >= ranges) continue;
         range_t range = ready[r];
         grid_domain domain = domain_of(&frame, range);
         int count = patch_point_count(&frame, range.patch_index);
         global const float* net = eye_points + patch_offset(&frame, range.patch_index);
-        uint first_id = 1u + r * frame.dice_rate * frame.dice_rate;
+        uint first_id = first_id_of(r, frame.rate_bits);
         if (get_local_id(0) == 0) careful = 0;
         barrier(CLK_LOCAL_MEM_FENCE);
         snap_grid(&frame, domain, net, count, grid);

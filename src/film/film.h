@@ -48,7 +48,7 @@ public:
         const cl::Buffer& objects;
         const cl::Buffer& lights;
         const cl::Buffer& picture;
-        const cl::Buffer& state;
+        const SplitQueues& queues;  // whose last batch is still in `ready`
     };
     // Shades and filters into `inputs.picture`; the film is background again afterwards.
     void enqueueShade(const frame_params& frame, const picture_planes& planes, const ShadeInputs& inputs);

@@ -1,4 +1,5 @@
 // resolve_samples: turns the batch's visible samples into surface references, since ids of successive batches collide.
+// The last batch needs none of it: nothing comes after it.
 // In:   samples, touched; ready (the batch's ranges).
 // Out:  references (patch, u, v of the micropolygon's middle) of samples whose id is not 0, whose ids become 0.
 //       Tiles that the batch did not touch are not looked at. A work-group a tile at a time.
@@ -13,28 +14,20 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void resolve_samples(f
                                                                                global const range_t* ready, global uint2* samples,
                                                                                global uchar* touched, global uint* reference_patch,
                                                                                global float* reference_u, global float* reference_v) {
-    if (batch_to_hide(&frame, state, limits) == 0u) return;
+    if (batch_to_hide(&frame, state, limits) == 0u || batch_is_last(&frame, state)) return;
     int side = frame.tile_cells;
     int count = side * side;
-    uint rate = frame.dice_rate;
-    float per_rate = 1.0f / (float)rate;
-    for (int tile = (int)get_group_id(0); tile < frame.tiles; tile += (int)get_num_groups(0)) {
+    tile_run run = tiles_of_group(&frame);
+    for (int tile = run.begin; tile < run.end; ++tile) {
         if (touched[tile] != TILE_NEW) continue;
         for (int i = (int)get_local_id(0); i < count; i += GROUP) {
             size_t s = (size_t)tile * count + i;
             uint2 key = samples[s];  // id, depth
             if (key.x == 0u || (key.x & key.y) == 0xffffffffu) continue;
-            uint id = key.x - 1u;
-            uint r = id / (rate * rate);
-            uint micropolygon = id - r * rate * rate;
-            uint row = micropolygon / rate;
-            uint column = micropolygon - row * rate;
-            range_t range = ready[r];
-            float u = (float)(range.u_side & SIDE_INDEX_MASK) + ((float)column + 0.5f) * per_rate;
-            float v = (float)(range.v_side & SIDE_INDEX_MASK) + ((float)row + 0.5f) * per_rate;
-            reference_patch[s] = range.patch_index;
-            reference_u[s] = u * range_side_size(range.u_side);
-            reference_v[s] = v * range_side_size(range.v_side);
+            surface_reference reference = reference_of(&frame, ready, key.x);
+            reference_patch[s] = reference.patch_index;
+            reference_u[s] = reference.u;
+            reference_v[s] = reference.v;
             samples[s].x = 0u;
         }
         barrier(CLK_LOCAL_MEM_FENCE);

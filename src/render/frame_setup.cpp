@@ -1,6 +1,7 @@
 #include "render/frame_setup.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -49,6 +50,8 @@ void setVector(float* to, const glm::dvec3& from) {
 
 }  // namespace
 
+std::uint32_t rateBits(int diceRate) { return static_cast<std::uint32_t>(std::bit_width(static_cast<unsigned>(diceRate - 1))); }
+
 glm::dmat4 eyeFromWorld(const Camera& camera) {
     glm::dmat4 view = glm::inverse(matrix(camera.transform));
     for (int column = 0; column < 4; ++column) view[column][2] = -view[column][2];
@@ -67,6 +70,7 @@ frame_params setUpFrame(const Camera& camera, const RenderOptions& options, cons
     frame.split_bound = options.splitBound;
     frame.max_depth = static_cast<std::uint32_t>(options.maxDepth);
     frame.dice_rate = static_cast<std::uint32_t>(options.diceRate);
+    frame.rate_bits = rateBits(options.diceRate);
     frame.bezier_patches = patches.bezierPatches;
     frame.patches = patches.patches;
     setFilm(frame, film);

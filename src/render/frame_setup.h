@@ -14,6 +14,9 @@ namespace tessera {
 
 [[nodiscard]] frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, const PatchSet& patches);
 
+// Bits that number a range's rows or columns of micropolygons: the least b with 2^b >= diceRate.
+[[nodiscard]] std::uint32_t rateBits(int diceRate);
+
 // World to eye space (x right, y up, z the depth); its third row is the camera's -z axis.
 [[nodiscard]] glm::dmat4 eyeFromWorld(const Camera& camera);
 

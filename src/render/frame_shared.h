@@ -23,6 +23,7 @@ typedef struct {
     float split_bound;  // pixels
     uint max_depth;     // splits
     uint dice_rate;     // micropolygons along a side of a range
+    uint rate_bits;     // of a micropolygon's row or column in an id: 2^rate_bits >= dice_rate
     // Patches: [0, bezier_patches) are Bezier, [bezier_patches, patches) Gregory.
     uint bezier_patches;
     uint patches;

@@ -177,7 +177,7 @@ Frame Renderer::Impl::drawFrame(const Camera& camera, const RenderOptions& optio
     session.timeline.write(lights.cl(), placedLights.data(), placedLights.size() * sizeof(eye_light));
     const SplitResult result = split(params, options, progress);
     if (progress) progress("shade", 1.0);
-    film.enqueueShade(params, pictureLayout.planes, {patches, objects.cl(), lights.cl(), picture.cl(), queues.state()});
+    film.enqueueShade(params, pictureLayout.planes, {patches, objects.cl(), lights.cl(), picture.cl(), queues});
     mapped = session.timeline.map(picture.cl(), pictureLayout.floats * sizeof(float));
     const double frameMs = millisecondsSince(start);
     film.trust();

@@ -1,10 +1,12 @@
 #include "render/split_loop.h"
 
+#include <algorithm>
 #include <chrono>
 #include <deque>
 #include <limits>
 #include <memory>
 
+#include "render/frame_setup.h"
 #include "split/host_split.h"
 #include "tessera/error.h"
 
@@ -15,6 +17,10 @@ namespace {
 // for the host, few enough that the no-ops behind the last batch cost next to nothing.
 constexpr int iterationsPerRound = 4;
 constexpr std::size_t roundsAhead = 2;
+
+// Room in `ready`, in batches: each time it is full the film is resolved, which costs a pass over the tiles touched; 12 bytes a range
+// are cheap beside it.
+constexpr std::uint64_t batchesReady = 8;
 
 // Limits under which the device finds `ready` full whatever it holds, so that all of it is hidden.
 constexpr split_limits hideWhatIsReady{std::numeric_limits<std::uint32_t>::max(), std::numeric_limits<std::uint32_t>::max() - 1};
@@ -46,9 +52,11 @@ void report(const SplitLoop& loop, double fraction) {
     if (loop.progress) loop.progress("split and dice", fraction);
 }
 
+// Ranges whose micropolygons 32 bits can number (film/batch.clh).
+std::uint64_t mostNumbered(std::uint32_t bits) { return (std::uint64_t{1} << (32 - 2 * bits)) - 2; }
+
 void requireIds(const SplitLoop& loop, std::uint64_t ranges) {
-    const std::uint64_t rate = loop.frame.dice_rate;
-    if (ranges * rate * rate < std::numeric_limits<std::uint32_t>::max()) return;
+    if (ranges <= mostNumbered(loop.frame.rate_bits)) return;
     throw Error("breadth has " + std::to_string(ranges) + " ranges to dice at once, more than 32 bits can number; use --method bounded");
 }
 
@@ -58,7 +66,10 @@ void hide(const SplitLoop& loop, const split_limits& limits) {
 
 }  // namespace
 
-split_limits boundedLimits(const RenderOptions& options) { return {options.batch, 2 * options.batch}; }
+split_limits boundedLimits(const RenderOptions& options) {
+    const std::uint64_t numbered = mostNumbered(rateBits(options.diceRate));
+    return {options.batch, static_cast<std::uint32_t>(std::min<std::uint64_t>(batchesReady * std::uint64_t{options.batch}, numbered))};
+}
 
 std::uint64_t boundedStack(const RenderOptions& options) { return (static_cast<std::uint64_t>(options.maxDepth) + 1) * options.batch; }
 
@@ -110,8 +121,8 @@ SplitResult runCpu(const SplitLoop& loop) {
     std::vector<float> eyePoints(loop.patches.eyePoints.bytes() / sizeof(float));
     loop.session.timeline.read(loop.patches.eyePoints.cl(), eyePoints.data(), eyePoints.size() * sizeof(float));
     HostSplit split(loop.frame, std::move(eyePoints), loop.options.threads);
+    // The device must take no batch for the last one: the state says that patches are left.
     SplitResult result;
-    result.state.next_input = loop.patches.patches;
     while (true) {
         const auto start = Clock::now();
         const std::vector<range_t> ranges = split.next(loop.options.batch);

@@ -25,7 +25,7 @@ struct SplitResult {
     double hostMs = 0;
 };
 
-// p ranges at a time; ready room of 2 p, so that batches hold p ranges or more.
+// p ranges at a time, and room for several batches of diceable ones, as far as 32 bits can number their micropolygons.
 [[nodiscard]] split_limits boundedLimits(const RenderOptions& options);
 // The bound on the stack, (K + 1) p, for any number of patches (DESIGN.md, "Bounded split without the N").
 [[nodiscard]] std::uint64_t boundedStack(const RenderOptions& options);

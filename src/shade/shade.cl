@@ -1,12 +1,13 @@
 // shade_tiles: the last pass of a frame. A work-group takes a tile at a time: gathers its pixels' samples, shades each visible
 // micropolygon once a pixel, box-filters the samples into pixels and leaves the tile's samples empty for the next frame.
-// In:    samples (ids all 0 by now), references, touched; eye_points, patches, objects, lights.
+// In:    samples, touched; what their ids stand for: references where the id is 0, else ready (the last batch); eye_points, patches,
+//        objects, lights.
 // Out:   picture: premultiplied linear rgba, then the planes asked for; state->pixels_covered.
-// Bound: local lists of one slot a sample of a tile (at most 256); no global memory of its own.
+// Bound: local lists of one slot a sample of a tile (at most 256), 56 bytes each; no global memory of its own.
 #include "device/lanes.clh"
+#include "film/batch.clh"
 #include "film/film.clh"
 #include "shade/lighting.clh"
-#include "split/range_shared.h"
 #include "surface/patch_eval.clh"
 #include "surface/patch_nets.clh"
 
@@ -15,6 +16,9 @@
 
 // Shading points of a tile: pixel p has slots [p N N, (p + 1) N N); `weight` is the number of its samples that show it, 0 in unused slots.
 typedef struct {
+    local ulong* key;   // the tile's samples, as in the film
+    local int* slot;    // of each sample, from its pixel's first
+    local int* sample;  // of each slot: one of its samples, as a place in the tile
     local int* patch_index;
     local float* u;
     local float* v;
@@ -22,67 +26,89 @@ typedef struct {
     local float* result;  // r, g, b, n.x, n.y, n.z, LIST_SLOTS apart
 } shade_list;
 
+// What the samples' ids stand for.
 typedef struct {
     global const uint* patch_index;
     global const float* u;
     global const float* v;
+    global const range_t* ready;
 } sample_references;
 
-// How far back a sample looks for its micropolygon among those of its pixel; one that is not found is shaded again.
-#define LOOK_BACK 8
-
-static inline int list_sample(shade_list list, int first, int count, uint patch_index, float u, float v) {
-    for (int k = count - 1; k >= max(0, count - LOOK_BACK); --k) {
-        int slot = first + k;
-        if (list.patch_index[slot] == (int)patch_index && list.u[slot] == u && list.v[slot] == v) {
-            list.weight[slot] += 1.0f;
-            return count;
-        }
-    }
-    int slot = first + count;
-    list.patch_index[slot] = (int)patch_index;
-    list.u[slot] = u;
-    list.v[slot] = v;
-    list.weight[slot] = 1.0f;
-    return count + 1;
+static inline surface_reference look_up(const frame_params* frame, sample_references references, uint id, int sample) {
+    if (id != 0u) return reference_of(frame, references.ready, id);
+    surface_reference reference = {references.patch_index[sample], references.u[sample], references.v[sample]};
+    return reference;
 }
 
-// Lists a pixel's samples and empties them. Returns the nearest sample's place, or -1 where all are background.
-static inline int list_pixel(const frame_params* frame, shade_list list, global ulong* samples, sample_references references, int base,
-                             int corner, int first, uint* depth) {
+// Whether two samples of a tile show the same micropolygon. Of earlier batches' samples (id 0) the references tell.
+static inline bool same_micropolygon(shade_list list, sample_references references, int base, int a, int b) {
+    uint id = (uint)list.key[a];
+    if (id != (uint)list.key[b]) return false;
+    if (id != 0u) return true;
+    a += base;
+    b += base;
+    return references.patch_index[a] == references.patch_index[b] && references.u[a] == references.u[b] &&
+           references.v[a] == references.v[b];
+}
+
+// Gives each of a pixel's samples a slot: its left or upper neighbour's where it shows the same micropolygon, else a new one. (A
+// micropolygon that none of its neighbours shows may get two slots: it is shaded twice, and its weights add up all the same.)
+// Returns the nearest sample's place in the tile, or -1 where all are background.
+static inline int list_pixel(const frame_params* frame, shade_list list, sample_references references, int base, int corner, int first) {
     int n = frame->pixel_samples;
+    int row_step = frame->tile_cells;
     int nearest = -1, count = 0;
-    *depth = 0xffffffffu;
+    uint depth = 0u;
     for (int k = 0; k < n * n; ++k) list.weight[first + k] = 0.0f;
     for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
-            int s = base + corner + j * frame->tile_cells + i;
-            ulong key = samples[s];
+            int cell = corner + j * row_step + i;
+            ulong key = list.key[cell];
             if (key == FILM_BACKGROUND) continue;
-            samples[s] = FILM_BACKGROUND;
-            count = list_sample(list, first, count, references.patch_index[s], references.u[s], references.v[s]);
-            uint sample_depth = (uint)(key >> 32);
-            if (nearest < 0 || sample_depth < *depth) {
-                nearest = s;
-                *depth = sample_depth;
-            }
+            int slot = count;
+            if (j > 0 && same_micropolygon(list, references, base, cell, cell - row_step)) slot = list.slot[cell - row_step];
+            if (i > 0 && same_micropolygon(list, references, base, cell, cell - 1)) slot = list.slot[cell - 1];
+            list.slot[cell] = slot;
+            list.sample[first + slot] = cell;
+            list.weight[first + slot] += 1.0f;
+            count += slot == count ? 1 : 0;
+            bool nearer = nearest < 0 || (uint)(key >> 32) < depth;
+            nearest = nearer ? cell : nearest;
+            depth = nearer ? (uint)(key >> 32) : depth;
         }
+    }
+    for (int slot = first; slot < first + count; ++slot) {
+        int cell = list.sample[slot];
+        surface_reference reference = look_up(frame, references, (uint)list.key[cell], base + cell);
+        list.patch_index[slot] = (int)reference.patch_index;
+        list.u[slot] = reference.u;
+        list.v[slot] = reference.v;
     }
     return nearest;
 }
 
-static inline void write_nearest(global float* picture, picture_planes planes, uint pixel, int nearest, uint depth,
+static inline void write_nearest(const frame_params* frame, shade_list list, global float* picture, picture_planes planes, uint pixel, int base, int nearest,
                                  sample_references references, global const placed_patch* patches) {
-    bool hit = nearest >= 0;
-    if (planes.z != NO_PLANE) picture[planes.z + pixel] = hit ? 1.0f / as_float(~depth) : INFINITY;
+    ulong key = list.key[nearest];
+    if (planes.z != NO_PLANE) picture[planes.z + pixel] = 1.0f / as_float(~(uint)(key >> 32));
+    if (planes.uv == NO_PLANE && planes.object == NO_PLANE && planes.patch_id == NO_PLANE) return;
+    surface_reference reference = look_up(frame, references, (uint)key, base + nearest);
     if (planes.uv != NO_PLANE) {
-        picture[planes.uv + 2u * pixel] = hit ? references.u[nearest] : 0.0f;
-        picture[planes.uv + 2u * pixel + 1u] = hit ? references.v[nearest] : 0.0f;
+        picture[planes.uv + 2u * pixel] = reference.u;
+        picture[planes.uv + 2u * pixel + 1u] = reference.v;
     }
-    if (planes.object == NO_PLANE && planes.patch_id == NO_PLANE) return;
-    placed_patch placed = patches[hit ? references.patch_index[nearest] : 0u];
-    if (planes.object != NO_PLANE) picture[planes.object + pixel] = hit ? (float)placed.object : -1.0f;
-    if (planes.patch_id != NO_PLANE) picture[planes.patch_id + pixel] = hit ? (float)placed.index_in_mesh : -1.0f;
+    placed_patch placed = patches[reference.patch_index];
+    if (planes.object != NO_PLANE) picture[planes.object + pixel] = (float)placed.object;
+    if (planes.patch_id != NO_PLANE) picture[planes.patch_id + pixel] = (float)placed.index_in_mesh;
+}
+
+static inline void write_no_surface(global float* picture, picture_planes planes, uint pixel) {
+    if (planes.z != NO_PLANE) picture[planes.z + pixel] = INFINITY;
+    if (planes.object != NO_PLANE) picture[planes.object + pixel] = -1.0f;
+    if (planes.patch_id != NO_PLANE) picture[planes.patch_id + pixel] = -1.0f;
+    if (planes.uv == NO_PLANE) return;
+    picture[planes.uv + 2u * pixel] = 0.0f;
+    picture[planes.uv + 2u * pixel + 1u] = 0.0f;
 }
 
 static inline vpoint blend_point(vpoint otherwise, vpoint then, vint mask) {
@@ -150,88 +176,96 @@ static inline void write_pixel(const frame_params* frame, shade_list list, int f
     if (planes.normal != NO_PLANE) write_normal(frame, picture + planes.normal + 3u * pixel, sum[3], sum[4], sum[5]);
 }
 
-static inline void write_empty_pixel(const frame_params* frame, global float* picture, picture_planes planes, uint pixel,
-                                     sample_references references, global const placed_patch* patches) {
+static inline void write_empty_pixel(const frame_params* frame, global float* picture, picture_planes planes, uint pixel) {
     vstore4((float4)(frame->background_r, frame->background_g, frame->background_b, frame->background_a), pixel, picture);
-    write_nearest(picture, planes, pixel, -1, 0u, references, patches);
-    if (planes.normal != NO_PLANE) write_normal(frame, picture + planes.normal + 3u * pixel, 0.0f, 0.0f, 0.0f);
+    write_no_surface(picture, planes, pixel);
+    if (planes.normal != NO_PLANE) vstore3((float3)(0.0f), 0, picture + planes.normal + 3u * pixel);
 }
 
-// A tile's pixels in the picture.
+// A tile's pixels, walked in steps of the group's size.
 typedef struct {
-    int side;        // pixels along a side
-    float per_side;  // 1 / side
-    int x, y;        // of the first pixel
-} tile_pixels;
+    int side;         // pixels along a tile's side
+    int x, y;         // of the tile's first pixel in the picture
+    int row, column;  // of the pixel in the tile
+} pixel_walk;
 
-static inline tile_pixels pixels_of_tile(const frame_params* frame, int tile) {
-    tile_pixels t;
-    t.side = frame->tile_cells / frame->pixel_samples;
-    t.per_side = 1.0f / (float)t.side;
-    int row = tile / frame->tiles_x;
-    t.x = (tile - row * frame->tiles_x) * t.side;
-    t.y = row * t.side;
-    return t;
+static inline pixel_walk walk_pixels(const frame_params* frame, int tile) {
+    pixel_walk walk;
+    walk.side = frame->tile_cells / frame->pixel_samples;
+    int tile_row = tile / frame->tiles_x;
+    walk.x = (tile - tile_row * frame->tiles_x) * walk.side;
+    walk.y = tile_row * walk.side;
+    walk.row = (int)get_local_id(0) / walk.side;
+    walk.column = (int)get_local_id(0) - walk.row * walk.side;
+    return walk;
 }
 
-// Where pixel p of a tile stands: its corner's cell in the tile, and its place in the picture, or -1 outside.
-typedef struct {
-    int corner;
-    int place;
-} pixel_place;
+static inline void next_pixel(pixel_walk* walk) {
+    walk->column += GROUP;
+    while (walk->column >= walk->side) {
+        walk->column -= walk->side;
+        walk->row += 1;
+    }
+}
 
-static inline pixel_place place_pixel(const frame_params* frame, tile_pixels t, int p) {
-    int row = (int)(((float)p + 0.5f) * t.per_side);  // exact: p is below 2^8
-    int column = p - row * t.side;
-    pixel_place pixel;
-    pixel.corner = (row * frame->tile_cells + column) * frame->pixel_samples;
-    bool inside = t.x + column < frame->width && t.y + row < frame->height;
-    pixel.place = inside ? (t.y + row) * frame->width + t.x + column : -1;
-    return pixel;
+// The pixel's place in the picture, or -1 outside it.
+static inline int pixel_place(const frame_params* frame, const pixel_walk* walk) {
+    int x = walk->x + walk->column, y = walk->y + walk->row;
+    return x < frame->width && y < frame->height ? y * frame->width + x : -1;
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void shade_tiles(
     frame_params frame, picture_planes planes, global const float* eye_points, global const placed_patch* patches,
     global const placed_object* objects, global const eye_light* lights, global const uint* reference_patch,
-    global const float* reference_u, global const float* reference_v, global ulong* samples, global uchar* touched, global float* picture,
+    global const float* reference_u, global const float* reference_v, global const range_t* ready, global ulong* samples, global uchar* touched, global float* picture,
     global split_state* state) {
-    local int list_patch[LIST_SLOTS];
+    local ulong list_key[LIST_SLOTS];
+    local int list_slot[LIST_SLOTS], list_sample[LIST_SLOTS], list_patch[LIST_SLOTS];
     local float list_u[LIST_SLOTS], list_v[LIST_SLOTS], list_weight[LIST_SLOTS], list_result[6 * LIST_SLOTS];
-    shade_list list = {list_patch, list_u, list_v, list_weight, list_result};
-    sample_references references = {reference_patch, reference_u, reference_v};
+    shade_list list = {list_key, list_slot, list_sample, list_patch, list_u, list_v, list_weight, list_result};
+    sample_references references = {reference_patch, reference_u, reference_v, ready};
     int lid = (int)get_local_id(0);
     int slots = frame.pixel_samples * frame.pixel_samples;
     int tile_samples = frame.tile_cells * frame.tile_cells;
-    int pixels = tile_samples / slots;
     uint covered = 0u;
     for (int k = lid; k < LANES; k += GROUP) list_weight[tile_samples + k] = 0.0f;
-    for (int tile = (int)get_group_id(0); tile < frame.tiles; tile += (int)get_num_groups(0)) {
+    tile_run run = tiles_of_group(&frame);
+    for (int tile = run.begin; tile < run.end; ++tile) {
         bool empty = touched[tile] == TILE_EMPTY;
-        tile_pixels t = pixels_of_tile(&frame, tile);
         barrier(CLK_LOCAL_MEM_FENCE);
         if (empty) {
-            for (int p = lid; p < pixels; p += GROUP) {
-                pixel_place pixel = place_pixel(&frame, t, p);
-                if (pixel.place >= 0) write_empty_pixel(&frame, picture, planes, (uint)pixel.place, references, patches);
+            for (pixel_walk walk = walk_pixels(&frame, tile); walk.row < walk.side; next_pixel(&walk)) {
+                int place = pixel_place(&frame, &walk);
+                if (place >= 0) write_empty_pixel(&frame, picture, planes, (uint)place);
             }
             continue;
         }
-        for (int p = lid; p < pixels; p += GROUP) {
-            pixel_place pixel = place_pixel(&frame, t, p);
-            uint depth;
+        int base = tile * tile_samples;
+        for (int k = lid; k < tile_samples; k += GROUP) {
+            list_key[k] = samples[base + k];
+            samples[base + k] = FILM_BACKGROUND;
+        }
+        barrier(CLK_LOCAL_MEM_FENCE);
+        for (pixel_walk walk = walk_pixels(&frame, tile); walk.row < walk.side; next_pixel(&walk)) {
+            int place = pixel_place(&frame, &walk);
+            int corner = (walk.row * frame.tile_cells + walk.column) * frame.pixel_samples;
             // Cells outside the picture hold no samples, so their pixels list nothing.
-            int nearest = list_pixel(&frame, list, samples, references, tile * tile_samples, pixel.corner, p * slots, &depth);
-            if (pixel.place < 0) continue;
-            write_nearest(picture, planes, (uint)pixel.place, nearest, depth, references, patches);
+            int nearest = list_pixel(&frame, list, references, base, corner, (walk.row * walk.side + walk.column) * slots);
+            if (place < 0) continue;
+            if (nearest >= 0)
+                write_nearest(&frame, list, picture, planes, (uint)place, base, nearest, references, patches);
+            else
+                write_no_surface(picture, planes, (uint)place);
             covered += nearest >= 0 ? 1u : 0u;
         }
         barrier(CLK_LOCAL_MEM_FENCE);
         for (int i = lid * LANES; i < tile_samples; i += GROUP * LANES)
             shade_slots(&frame, list, i, eye_points, patches, objects, lights);
         barrier(CLK_LOCAL_MEM_FENCE);
-        for (int p = lid; p < pixels; p += GROUP) {
-            pixel_place pixel = place_pixel(&frame, t, p);
-            if (pixel.place >= 0) write_pixel(&frame, list, p * slots, picture, planes, (uint)pixel.place);
+        for (pixel_walk walk = walk_pixels(&frame, tile); walk.row < walk.side; next_pixel(&walk)) {
+            int place = pixel_place(&frame, &walk);
+            int first = (walk.row * walk.side + walk.column) * slots;
+            if (place >= 0) write_pixel(&frame, list, first, picture, planes, (uint)place);
         }
         if (lid == 0) touched[tile] = TILE_EMPTY;
     }
