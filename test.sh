@@ -18,8 +18,8 @@ run_tests() {
     local caches=$PWD/$folder/caches/$method
     mkdir -p "$caches/pocl" "$caches/tessera"
     if ! POCL_WORK_GROUP_METHOD=$method POCL_CACHE_DIR=$caches/pocl TESSERA_CACHE=$caches/tessera \
-        ctest --test-dir "$folder" --no-tests=error --output-on-failure -j "$(nproc)" "$@" </dev/null >"$tests_log" 2>&1; then
-        grep -v ' Passed ' "$tests_log" || true
+        ctest --test-dir "$folder" --no-tests=error --output-on-failure --no-label-summary -j "$(nproc)" "$@" </dev/null >"$tests_log" 2>&1; then
+        grep -vE ' Passed |^ +Start +[0-9]+: ' "$tests_log" || true
         exit 1
     fi
     grep -A 2 'tests passed' "$tests_log"

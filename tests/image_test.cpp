@@ -1,118 +1,15 @@
-// Image files are read back with OpenImageIO: what writeImage() promises of each format, and what it leaves behind on errors.
-#include "formats/image_file.h"
-#include "tessera/error.h"
+// Image files are read back with OpenImageIO: what writeImage() promises of each format.
+#include "image_samples.h"
 
-#include <OpenImageIO/imageio.h>
-#include <gtest/gtest.h>
-#include <sys/resource.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <csignal>
 #include <cstdint>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <limits>
-#include <memory>
 #include <string>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 namespace tessera {
 namespace {
-
-namespace fs = std::filesystem;
-
-// A folder of its own for each test, removed after it.
-class ImageFile : public testing::Test {
-protected:
-    void SetUp() override {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::temp_directory_path() / ("tessera_image_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
-
-    [[nodiscard]] std::vector<std::string> files() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
-        std::sort(names.begin(), names.end());
-        return names;
-    }
-
-private:
-    fs::path folder_;
-};
-
-// A frame with planes of its own: what a renderer would hold.
-struct TestFrame {
-    std::vector<float> rgba, z, n, object, patch, uv;
-    Frame frame;
-
-    TestFrame(int width, int height) {
-        frame.width = frame.fullWidth = width;
-        frame.height = frame.fullHeight = height;
-        rgba.resize(pixels() * 4);
-        frame.planes.push_back({"rgba", 4, rgba});
-    }
-    [[nodiscard]] std::size_t pixels() const { return static_cast<std::size_t>(frame.width) * static_cast<std::size_t>(frame.height); }
-
-    void add(std::string_view name, int channels, std::vector<float>& values, float scale) {
-        values.resize(pixels() * static_cast<std::size_t>(channels));
-        for (std::size_t i = 0; i < values.size(); ++i) values[i] = scale * static_cast<float>(i);
-        frame.planes.push_back({name, channels, values});
-    }
-};
-
-// A picture with colours over the whole range and every alpha.
-TestFrame gradient(int width, int height) {
-    TestFrame result(width, height);
-    const auto last = static_cast<float>(result.pixels() - 1);
-    for (std::size_t i = 0; i < result.pixels(); ++i) {
-        const float t = static_cast<float>(i) / last;
-        const float alpha = static_cast<float>(i % 11) / 10.0F;
-        const std::array<float, 4> pixel{alpha * t, alpha * t * t, alpha * (1.0F - t), alpha};
-        std::copy(pixel.begin(), pixel.end(), result.rgba.begin() + static_cast<std::ptrdiff_t>(i * 4));
-    }
-    return result;
-}
-
-std::size_t number(int value) { return static_cast<std::size_t>(value); }
-
-struct Picture {
-    OIIO::ImageSpec spec;
-    std::vector<float> values;  // all channels, as float; 8-bit values over 255
-
-    [[nodiscard]] float at(int x, int y, const std::string& channel) const {
-        const int index = spec.channelindex(channel);
-        EXPECT_GE(index, 0) << channel;
-        if (index < 0) return std::numeric_limits<float>::quiet_NaN();
-        return values[(number(y) * number(spec.width) + number(x)) * number(spec.nchannels) + number(index)];
-    }
-    [[nodiscard]] OIIO::TypeDesc type(const std::string& channel) const { return spec.channelformat(spec.channelindex(channel)); }
-};
-
-Picture readPicture(const fs::path& path) {
-    Picture picture;
-    OIIO::ImageSpec hints;
-    hints.attribute("oiio:UnassociatedAlpha", 1);  // as the file has it
-    const auto input = OIIO::ImageInput::open(path.string(), &hints);
-    if (!input) {
-        ADD_FAILURE() << OIIO::geterror();
-        return picture;
-    }
-    picture.spec = input->spec();
-    picture.values.resize(picture.spec.image_pixels() * static_cast<std::size_t>(picture.spec.nchannels));
-    EXPECT_TRUE(input->read_image(0, 0, 0, -1, OIIO::TypeFloat, picture.values.data())) << input->geterror();
-    return picture;
-}
 
 using Window = std::array<int, 4>;  // x, y, width, height
 Window dataWindow(const OIIO::ImageSpec& spec) { return {spec.x, spec.y, spec.width, spec.height}; }
@@ -125,21 +22,6 @@ std::vector<std::uint32_t> readIds(const fs::path& path, const std::string& chan
     std::vector<std::uint32_t> ids(input->spec().image_pixels());
     EXPECT_TRUE(input->read_image(0, 0, index, index + 1, OIIO::TypeUInt32, ids.data())) << input->geterror();
     return ids;
-}
-
-std::string bytesOf(const fs::path& path) {
-    std::ifstream stream(path, std::ios::binary);
-    return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
-}
-
-template <typename Action>
-std::string errorOf(const Action& action) {
-    try {
-        action();
-    } catch (const Error& error) {
-        return error.what();
-    }
-    return "no error";
 }
 
 // sRGB as IEC 61966-2-1 states it, in double precision.
@@ -358,110 +240,6 @@ TEST_F(ImageFile, EqualPicturesAreEqualFilesWhateverTheCommandAndTheDate) {
         const std::string date = readPicture(file("a" + ending)).spec.get_string_attribute("DateTime");
         EXPECT_TRUE(date.empty() || date == "1970:01:01 00:00:00") << ending << " " << date;
     }
-}
-
-TEST_F(ImageFile, UnknownEndingsAreRefusedWithTheListOfKnownOnes) {
-    for (const char* name : {"a.bmp", "a", "a.png.gz", ".png", "png"}) {
-        const std::string check = errorOf([&] { checkImagePath(file(name)); });
-        EXPECT_NE(check.find(name), std::string::npos) << check;
-        EXPECT_NE(check.find(".exr .png .tif .tiff .jpg .jpeg"), std::string::npos) << check;
-        EXPECT_EQ(check, errorOf([&] { writeImage(file(name), gradient(2, 2).frame, {}); }));
-    }
-    EXPECT_TRUE(files().empty());
-}
-
-TEST_F(ImageFile, PathsThatCannotBeWrittenAreRefusedBeforeAndAtWriting) {
-    fs::create_directories(file("folder.png"));
-    std::ofstream(file("plain")) << "x";
-    const std::vector<std::pair<fs::path, std::string>> cases{
-        {file("folder.png"), "is a folder"},          {file("missing") / "a.png", "no such folder"},
-        {file("plain") / "a.png", "is not a folder"}, {file(std::string(300, 'a') + ".png"), "shorter name"},
-        {"/proc/tessera.png", "another folder"},
-    };
-    for (const auto& item : cases) {
-        const fs::path& path = item.first;
-        const std::string check = errorOf([&] { checkImagePath(path); });
-        EXPECT_NE(check.find(item.second), std::string::npos) << check;
-        EXPECT_EQ(check.find('\n'), std::string::npos) << check;
-        EXPECT_EQ(check, errorOf([&] { writeImage(path, gradient(2, 2).frame, {}); }));
-    }
-    EXPECT_EQ(files(), (std::vector<std::string>{"folder.png", "plain"}));
-}
-
-TEST_F(ImageFile, CheckingLeavesNothingBehindAndAnOldFileAlone) {
-    std::ofstream(file("a.png")) << "old";
-    checkImagePath(file("a.png"));
-    checkImagePath(file("b.exr"));
-    EXPECT_EQ(files(), std::vector<std::string>{"a.png"});
-    EXPECT_EQ(bytesOf(file("a.png")), "old");
-}
-
-TEST_F(ImageFile, WritingReplacesAnOldFileAndHonoursTheUmask) {
-    std::ofstream(file("a.png")) << "old";
-    const mode_t before = ::umask(027);
-    writeImage(file("a.png"), gradient(2, 2).frame, {});
-    ::umask(before);
-    EXPECT_EQ(files(), std::vector<std::string>{"a.png"});
-    EXPECT_EQ(fs::status(file("a.png")).permissions(), static_cast<fs::perms>(0640));
-    EXPECT_EQ(readPicture(file("a.png")).spec.width, 2);
-}
-
-// As a full disk, but without one: no file of this process may pass some size. Restores the limit.
-class SmallFiles {
-public:
-    explicit SmallFiles(rlim_t bytes) {
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        handler_ = std::signal(SIGXFSZ, SIG_IGN);
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~SmallFiles() {
-        ::setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    SmallFiles(const SmallFiles&) = delete;
-    SmallFiles& operator=(const SmallFiles&) = delete;
-    SmallFiles(SmallFiles&&) = delete;
-    SmallFiles& operator=(SmallFiles&&) = delete;
-
-private:
-    rlimit before_{};
-    void (*handler_)(int) = nullptr;
-};
-
-TEST_F(ImageFile, AFailedWriteLeavesNoTemporaryAndTheOldFile) {
-    std::string message;
-    for (const char* name : {"a.exr", "a.png", "a.tif", "a.jpg"}) {
-        std::ofstream(file(name)) << "old";
-        {
-            const SmallFiles limit(300);
-            message = errorOf([&] { writeImage(file(name), gradient(40, 40).frame, {}); });
-        }
-        EXPECT_NE(message.find(name), std::string::npos) << message;
-        EXPECT_NE(message.find("File too large"), std::string::npos) << message;
-        EXPECT_EQ(bytesOf(file(name)), "old");
-        fs::remove(file(name));
-        EXPECT_TRUE(files().empty());
-    }
-}
-
-TEST_F(ImageFile, PicturesThatAFormatCannotHoldAreRefused) {
-    const std::string message = errorOf([&] { writeImage(file("a.jpg"), TestFrame(70000, 1).frame, {}); });
-    EXPECT_NE(message.find("a.jpg"), std::string::npos) << message;
-    EXPECT_NE(message.find("65500"), std::string::npos) << message;
-    EXPECT_TRUE(files().empty());
-}
-
-TEST_F(ImageFile, FramesWithoutPixelsOrWithPlanesOfAnotherSizeAreRefused) {
-    Frame empty;
-    TestFrame wrong(4, 4);
-    wrong.frame.height = 5;
-    TestFrame noColour(2, 2);
-    noColour.frame.planes[0].name = "Z";
-    for (const Frame* frame : {&std::as_const(empty), &std::as_const(wrong.frame), &std::as_const(noColour.frame)}) {
-        EXPECT_THROW(writeImage(file("a.exr"), *frame, {}), Error);
-    }
-    EXPECT_TRUE(files().empty());
 }
 
 }  // namespace

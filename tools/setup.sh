@@ -11,7 +11,7 @@ wanted=(
 )
 case "${1-}" in
     "") ;;
-    --with-tests) wanted+=(libgtest-dev libbenchmark-dev clang libclang-rt-dev clang-format clang-tidy) ;;
+    --with-tests) wanted+=(libgtest-dev libbenchmark-dev clang libclang-rt-dev llvm clang-format clang-tidy) ;;
     *) echo "usage: tools/setup.sh [--with-tests]" >&2; exit 2 ;;
 esac
 

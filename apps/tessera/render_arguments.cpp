@@ -160,7 +160,7 @@ void addDeviceOptions(CLI::App& app, RenderArguments& arguments) {
     app.add_flag("--emulate-atomics", arguments.options.emulateAtomics,
                  "Hide with 32-bit atomics in two passes even where there are 64-bit ones");
     app.add_option("--cache-dir", arguments.settings.cacheFolder,
-                   "Folder of compiled kernels; without it $TESSERA_CACHE,\n$XDG_CACHE_HOME/tessera or ~/.cache/tessera")
+                   "Folder of compiled kernels; without it $TESSERA_CACHE,\n$XDG_CACHE_HOME/tessera or ~/.cache/tessera.\nNot used on PoCL, which keeps its own")
         ->type_name("DIR");
     app.add_flag_callback(
         "--no-cache", [&arguments] { arguments.settings.cacheKernels = false; }, "Neither read nor write compiled kernels");

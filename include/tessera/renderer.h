@@ -39,7 +39,8 @@ struct Frame {
 
 struct RendererSettings {
     int device = -1;          // DeviceInfo::index, or -1 for the default
-    std::string cacheFolder;  // of compiled kernels; empty = $TESSERA_CACHE, $XDG_CACHE_HOME/tessera or ~/.cache/tessera
+    // Of compiled kernels; empty = $TESSERA_CACHE, $XDG_CACHE_HOME/tessera or ~/.cache/tessera. Not used on PoCL, which keeps its own.
+    std::string cacheFolder;
     bool cacheKernels = true;
 };
 

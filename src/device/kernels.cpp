@@ -24,7 +24,8 @@ std::string buildOptions(const OpenDevice& device) {
 
 Kernels::Kernels(const OpenDevice& device, const KernelSources& sources, const std::filesystem::path& cacheFolder) {
     const auto start = std::chrono::steady_clock::now();
-    program_ = buildProgram(device, {assembleKernels(sources, kernelFiles()), buildOptions(device), cacheFolder});
+    const std::filesystem::path folder = keepsOwnCache(device.info) ? std::filesystem::path() : cacheFolder;
+    program_ = buildProgram(device, {assembleKernels(sources, kernelFiles()), buildOptions(device), folder});
     try {
         std::vector<cl::Kernel> kernels;
         program_.createKernels(&kernels);

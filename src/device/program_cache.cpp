@@ -84,6 +84,8 @@ fs::path defaultCacheFolder() {
     return {};
 }
 
+bool keepsOwnCache(const DeviceInfo& info) { return info.platform == "Portable Computing Language"; }
+
 cl::Program buildProgram(const OpenDevice& device, const BuildRequest& request) {
     const bool cached = !request.cacheFolder.empty();
     if (cached) {

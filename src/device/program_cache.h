@@ -17,6 +17,10 @@ struct BuildRequest {
 // $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera; empty where none of them is known.
 [[nodiscard]] std::filesystem::path defaultCacheFolder();
 
+// Whether the platform keeps built kernels on disk itself, as PoCL does. Asking PoCL for a program's binary makes it compile every kernel
+// for unknown group sizes: 5 s, to save nothing.
+[[nodiscard]] bool keepsOwnCache(const DeviceInfo& info);
+
 // Loads the program from the cache or builds it, and stores it then. The key covers device, driver, options and source.
 // A cache that can't be read, is stale or can't be written only costs time. Throws Error with the first line of the build log.
 [[nodiscard]] cl::Program buildProgram(const OpenDevice& device, const BuildRequest& request);

@@ -184,7 +184,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void dice_hide(frame_p
     target.samples = samples;
     target.touched = touched;
     target.pass = pass;
-    target.tile_samples = (uint)(frame.tile_cells * frame.tile_cells);
+    target.per_tile = tile_reciprocal(&frame);
     target.hits = 0;
     uint ranges = batch_to_hide(&frame, state, limits);
     // Neighbours in `ready` are mostly neighbours on the screen: a group takes a run of them, so that their samples stay in its cache,

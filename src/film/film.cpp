@@ -1,7 +1,6 @@
 #include "film/film.h"
 
 #include <cmath>
-#include <limits>
 
 #include "tessera/error.h"
 
@@ -11,6 +10,9 @@ namespace {
 constexpr cl_uint hideAll = 0;  // HIDE_ALL, HIDE_DEPTH, HIDE_ID of film/hide.clh
 constexpr cl_uint hideDepth = 1;
 constexpr cl_uint hideId = 2;
+
+// The kernels' tile arithmetic is exact below this (film/hide.clh).
+constexpr std::uint64_t mostSamples = std::uint64_t{1} << 30;
 
 // RenderMan's rule for CropWindow: pixels from ceil(size x0) up to, not including, ceil(size x1), so that windows that share an
 // edge share no pixel.
@@ -33,7 +35,7 @@ FilmLayout layOutFilm(const RenderOptions& options) {
     const std::int64_t tilesX = roundedUp(std::int64_t{layout.width} * n, layout.tileCells);
     const std::int64_t tilesY = roundedUp(std::int64_t{layout.height} * n, layout.tileCells);
     layout.samples = static_cast<std::uint64_t>(tilesX * tilesY * layout.tileCells * layout.tileCells);
-    if (layout.samples > std::numeric_limits<std::int32_t>::max()) {
+    if (layout.samples >= mostSamples) {
         throw Error("a picture of " + std::to_string(layout.width) + "x" + std::to_string(layout.height) + " with " + std::to_string(n) +
                     "x" + std::to_string(n) + " samples a pixel would need " + bytesText(layout.samples * 20) +
                     " for its samples, more than one frame can hold; use a smaller --size, --pixel-samples or --crop");

@@ -28,7 +28,7 @@ struct FilmLayout {
     [[nodiscard]] std::uint64_t bytes() const { return samples * (8 + 12) + static_cast<std::uint64_t>(tiles); }
 };
 
-// Throws Error when there are more samples than 2^31 - 1, with the bytes that they would need.
+// Throws Error when there are 2^30 samples or more, with the bytes that they would need.
 [[nodiscard]] FilmLayout layOutFilm(const RenderOptions& options);
 
 class Film {

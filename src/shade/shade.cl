@@ -12,17 +12,21 @@
 #include "surface/patch_nets.clh"
 
 #define TILE_SAMPLES_MOST 256
+#define TILE_PIXELS_MOST 64
 #define LIST_SLOTS (TILE_SAMPLES_MOST + LANES)
 
-// Shading points of a tile: pixel p has slots [p N N, (p + 1) N N); `weight` is the number of its samples that show it, 0 in unused slots.
+// The tile's samples and shading points. Pixel p lists its micropolygons in places [p N N, p N N + count), and has them shaded in
+// the `count` slots from `first` on: slots are dense, so that no lane idles.
 typedef struct {
-    local ulong* key;   // the tile's samples, as in the film
-    local int* slot;    // of each sample, from its pixel's first
-    local int* sample;  // of each slot: one of its samples, as a place in the tile
-    local int* patch_index;
+    local ulong* key;     // of each sample, as in the film
+    local int* place;     // of each sample: where its pixel lists its micropolygon, from p N N on
+    local int* sample;    // of each place: one of its samples
+    local int* weight;    // of each place: the number of its samples
+    local int* count;     // of each pixel
+    local int* first;     // of each pixel, and of one behind the last
+    local int* patch_index;  // of each slot
     local float* u;
     local float* v;
-    local float* weight;
     local float* result;  // r, g, b, n.x, n.y, n.z, LIST_SLOTS apart
 } shade_list;
 
@@ -51,40 +55,56 @@ static inline bool same_micropolygon(shade_list list, sample_references referenc
            references.v[a] == references.v[b];
 }
 
-// Gives each of a pixel's samples a slot: its left or upper neighbour's where it shows the same micropolygon, else a new one. (A
-// micropolygon that none of its neighbours shows may get two slots: it is shaded twice, and its weights add up all the same.)
-// Returns the nearest sample's place in the tile, or -1 where all are background.
-static inline int list_pixel(const frame_params* frame, shade_list list, sample_references references, int base, int corner, int first) {
+// Lists the micropolygons that pixel p's samples show: a sample's is its left or upper neighbour's where they show the same one, else a
+// new one. (A micropolygon that none of its neighbours shows may be listed twice: it is shaded twice, and its weights add up all the same.)
+// Returns the nearest sample, or -1 where all are background.
+static inline int list_pixel(const frame_params* frame, shade_list list, sample_references references, int base, int corner, int p) {
     int n = frame->pixel_samples;
     int row_step = frame->tile_cells;
+    int first = p * n * n;
     int nearest = -1, count = 0;
     uint depth = 0u;
-    for (int k = 0; k < n * n; ++k) list.weight[first + k] = 0.0f;
     for (int j = 0; j < n; ++j) {
         for (int i = 0; i < n; ++i) {
             int cell = corner + j * row_step + i;
             ulong key = list.key[cell];
             if (key == FILM_BACKGROUND) continue;
-            int slot = count;
-            if (j > 0 && same_micropolygon(list, references, base, cell, cell - row_step)) slot = list.slot[cell - row_step];
-            if (i > 0 && same_micropolygon(list, references, base, cell, cell - 1)) slot = list.slot[cell - 1];
-            list.slot[cell] = slot;
-            list.sample[first + slot] = cell;
-            list.weight[first + slot] += 1.0f;
-            count += slot == count ? 1 : 0;
+            int place = count;
+            if (j > 0 && same_micropolygon(list, references, base, cell, cell - row_step)) place = list.place[cell - row_step];
+            if (i > 0 && same_micropolygon(list, references, base, cell, cell - 1)) place = list.place[cell - 1];
+            list.place[cell] = place;
+            list.sample[first + place] = cell;
+            list.weight[first + place] = 1 + (place == count ? 0 : list.weight[first + place]);
+            count += place == count ? 1 : 0;
             bool nearer = nearest < 0 || (uint)(key >> 32) < depth;
             nearest = nearer ? cell : nearest;
             depth = nearer ? (uint)(key >> 32) : depth;
         }
     }
-    for (int slot = first; slot < first + count; ++slot) {
-        int cell = list.sample[slot];
+    list.count[p] = count;
+    return nearest;
+}
+
+// Gives the pixels' micropolygons their slots. One work-item: a tile has 64 pixels at most.
+static inline void place_slots(shade_list list, int pixels) {
+    int sum = 0;
+    for (int p = 0; p < pixels; ++p) {
+        list.first[p] = sum;
+        sum += list.count[p];
+    }
+    list.first[pixels] = sum;
+}
+
+static inline void fill_slots(const frame_params* frame, shade_list list, sample_references references, int base, int p) {
+    int slot = list.first[p];
+    int place = p * frame->pixel_samples * frame->pixel_samples;
+    for (int end = slot + list.count[p]; slot < end; ++slot, ++place) {
+        int cell = list.sample[place];
         surface_reference reference = look_up(frame, references, (uint)list.key[cell], base + cell);
         list.patch_index[slot] = (int)reference.patch_index;
         list.u[slot] = reference.u;
         list.v[slot] = reference.v;
     }
-    return nearest;
 }
 
 static inline void write_nearest(const frame_params* frame, shade_list list, global float* picture, picture_planes planes, uint pixel, int base, int nearest,
@@ -117,13 +137,12 @@ static inline vpoint blend_point(vpoint otherwise, vpoint then, vint mask) {
 }
 
 // Evaluates the lanes' points a patch at a time (neighbours mostly share one) and shades them together.
-static inline void shade_slots(const frame_params* frame, shade_list list, int first, global const float* eye_points,
+static inline void shade_slots(const frame_params* frame, shade_list list, int first, int count, global const float* eye_points,
                                global const placed_patch* patches, global const placed_object* objects,
                                global const eye_light* lights) {
     vint patch_lanes = load_lanes(list.patch_index + first);
     vfloat u = load_lanes(list.u + first), v = load_lanes(list.v + first);
-    vint waiting = vlt((vfloat)(0.0f), load_lanes(list.weight + first));
-    if (!vany(waiting)) return;
+    vint waiting = vlt(first + vlane_index(), (vint)(count));
     vpoint zero = {(vfloat)(0.0f), (vfloat)(0.0f), (vfloat)(0.0f)};
     vpoint position = zero, normal = zero;
     lane_material material = {zero, (vfloat)(0.0f), (vfloat)(1.0f)};
@@ -157,23 +176,35 @@ static inline void write_normal(const frame_params* frame, global float* to, flo
     for (int row = 0; row < 3; ++row) to[row] = (m[3 * row] * x + m[3 * row + 1] * y + m[3 * row + 2] * z) * scale;
 }
 
-// Box-filters a pixel's slots over the background.
-static inline void write_pixel(const frame_params* frame, shade_list list, int first, global float* picture, picture_planes planes,
+typedef struct {
+    float x, y, z;
+} pixel_sum;
+
+static inline void add_pixel(pixel_sum* sum, float weight, local const float* result) {
+    sum->x += weight * result[0];
+    sum->y += weight * result[LIST_SLOTS];
+    sum->z += weight * result[2 * LIST_SLOTS];
+}
+
+// Box-filters pixel p's samples over the background.
+static inline void write_pixel(const frame_params* frame, shade_list list, int p, global float* picture, picture_planes planes,
                                uint pixel) {
     int slots = frame->pixel_samples * frame->pixel_samples;
-    float sum[6] = {0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f};
+    pixel_sum color = {0.0f, 0.0f, 0.0f}, normal = {0.0f, 0.0f, 0.0f};
     float covered = 0.0f;
-    for (int k = first; k < first + slots && list.weight[k] > 0.0f; ++k) {
-        float weight = list.weight[k];
+    for (int k = 0; k < list.count[p]; ++k) {
+        float weight = (float)list.weight[p * slots + k];
+        local const float* result = list.result + list.first[p] + k;
         covered += weight;
-        for (int c = 0; c < 6; ++c) sum[c] += weight * list.result[c * LIST_SLOTS + k];
+        add_pixel(&color, weight, result);
+        if (planes.normal != NO_PLANE) add_pixel(&normal, weight, result + 3 * LIST_SLOTS);
     }
     float per_slot = 1.0f / (float)slots;
     float open = 1.0f - covered * per_slot;
-    float4 rgba = (float4)(sum[0] * per_slot + open * frame->background_r, sum[1] * per_slot + open * frame->background_g,
-                           sum[2] * per_slot + open * frame->background_b, covered * per_slot + open * frame->background_a);
+    float4 rgba = (float4)(color.x * per_slot + open * frame->background_r, color.y * per_slot + open * frame->background_g,
+                           color.z * per_slot + open * frame->background_b, covered * per_slot + open * frame->background_a);
     vstore4(rgba, pixel, picture);
-    if (planes.normal != NO_PLANE) write_normal(frame, picture + planes.normal + 3u * pixel, sum[3], sum[4], sum[5]);
+    if (planes.normal != NO_PLANE) write_normal(frame, picture + planes.normal + 3u * pixel, normal.x, normal.y, normal.z);
 }
 
 static inline void write_empty_pixel(const frame_params* frame, global float* picture, picture_planes planes, uint pixel) {
@@ -219,16 +250,18 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void shade_tiles(
     global const placed_object* objects, global const eye_light* lights, global const uint* reference_patch,
     global const float* reference_u, global const float* reference_v, global const range_t* ready, global ulong* samples, global uchar* touched, global float* picture,
     global split_state* state) {
-    local ulong list_key[LIST_SLOTS];
-    local int list_slot[LIST_SLOTS], list_sample[LIST_SLOTS], list_patch[LIST_SLOTS];
-    local float list_u[LIST_SLOTS], list_v[LIST_SLOTS], list_weight[LIST_SLOTS], list_result[6 * LIST_SLOTS];
-    shade_list list = {list_key, list_slot, list_sample, list_patch, list_u, list_v, list_weight, list_result};
+    local ulong list_key[TILE_SAMPLES_MOST];
+    local int list_place[TILE_SAMPLES_MOST], list_sample[TILE_SAMPLES_MOST], list_count[TILE_PIXELS_MOST], list_first[TILE_PIXELS_MOST + 1];
+    local int list_weight[TILE_SAMPLES_MOST];
+    local int list_patch[LIST_SLOTS];
+    local float list_u[LIST_SLOTS], list_v[LIST_SLOTS], list_result[6 * LIST_SLOTS];
+    shade_list list = {list_key,   list_place, list_sample, list_weight, list_count,
+                       list_first, list_patch, list_u,      list_v,      list_result};
     sample_references references = {reference_patch, reference_u, reference_v, ready};
     int lid = (int)get_local_id(0);
-    int slots = frame.pixel_samples * frame.pixel_samples;
     int tile_samples = frame.tile_cells * frame.tile_cells;
+    int pixels = tile_samples / (frame.pixel_samples * frame.pixel_samples);
     uint covered = 0u;
-    for (int k = lid; k < LANES; k += GROUP) list_weight[tile_samples + k] = 0.0f;
     tile_run run = tiles_of_group(&frame);
     for (int tile = run.begin; tile < run.end; ++tile) {
         bool empty = touched[tile] == TILE_EMPTY;
@@ -250,7 +283,7 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void shade_tiles(
             int place = pixel_place(&frame, &walk);
             int corner = (walk.row * frame.tile_cells + walk.column) * frame.pixel_samples;
             // Cells outside the picture hold no samples, so their pixels list nothing.
-            int nearest = list_pixel(&frame, list, references, base, corner, (walk.row * walk.side + walk.column) * slots);
+            int nearest = list_pixel(&frame, list, references, base, corner, walk.row * walk.side + walk.column);
             if (place < 0) continue;
             if (nearest >= 0)
                 write_nearest(&frame, list, picture, planes, (uint)place, base, nearest, references, patches);
@@ -259,13 +292,17 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void shade_tiles(
             covered += nearest >= 0 ? 1u : 0u;
         }
         barrier(CLK_LOCAL_MEM_FENCE);
-        for (int i = lid * LANES; i < tile_samples; i += GROUP * LANES)
-            shade_slots(&frame, list, i, eye_points, patches, objects, lights);
+        if (lid == 0) place_slots(list, pixels);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        for (int p = lid; p < pixels; p += GROUP) fill_slots(&frame, list, references, base, p);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        int points = list_first[pixels];
+        for (int i = lid * LANES; i < points; i += GROUP * LANES)
+            shade_slots(&frame, list, i, points, eye_points, patches, objects, lights);
         barrier(CLK_LOCAL_MEM_FENCE);
         for (pixel_walk walk = walk_pixels(&frame, tile); walk.row < walk.side; next_pixel(&walk)) {
             int place = pixel_place(&frame, &walk);
-            int first = (walk.row * walk.side + walk.column) * slots;
-            if (place >= 0) write_pixel(&frame, list, first, picture, planes, (uint)place);
+            if (place >= 0) write_pixel(&frame, list, walk.row * walk.side + walk.column, picture, planes, (uint)place);
         }
         if (lid == 0) touched[tile] = TILE_EMPTY;
     }
