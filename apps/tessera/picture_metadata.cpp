@@ -70,6 +70,7 @@ ImageMetadata pictureMetadata(const std::string& commandLine, const Camera& came
         {"dice-rate", std::to_string(options.diceRate)},
         {"max-depth", std::to_string(options.maxDepth)},
         {"cull-backfaces", options.cullBackfaces ? "true" : "false"},
+        {"headlight", options.headlight ? "true" : "false"},
         {"emulate-atomics", options.emulateAtomics ? "true" : "false"},
     };
     const glm::dmat4 worldToCamera = glm::inverse(matrix(camera.transform));

@@ -145,6 +145,7 @@ void addSplitOptions(CLI::App& app, RenderArguments& arguments) {
     addWhole(app, "--max-depth", options.maxDepth, {0, 24}, "Splits after which a range is diced whatever its size, 0 to 24")
         ->type_name("K");
     app.add_flag("--cull-backfaces", options.cullBackfaces, "Drop micropolygons that face away (normal: du x dv)");
+    app.add_flag("--headlight", options.headlight, "Light from the camera instead of the scene's lights");
     for (CLI::Option* option : app.get_options()) {
         if (option->get_group() == "Options") option->group("Splitting and dicing");
     }
@@ -160,7 +161,8 @@ void addDeviceOptions(CLI::App& app, RenderArguments& arguments) {
     app.add_flag("--emulate-atomics", arguments.options.emulateAtomics,
                  "Hide with 32-bit atomics in two passes even where there are 64-bit ones");
     app.add_option("--cache-dir", arguments.settings.cacheFolder,
-                   "Folder of compiled kernels; without it $TESSERA_CACHE,\n$XDG_CACHE_HOME/tessera or ~/.cache/tessera.\nNot used on PoCL, which keeps its own")
+                   "Folder of compiled kernels; without it $TESSERA_CACHE,\n$XDG_CACHE_HOME/tessera or ~/.cache/tessera.\nNot used on "
+                   "PoCL, which keeps its own")
         ->type_name("DIR");
     app.add_flag_callback(
         "--no-cache", [&arguments] { arguments.settings.cacheKernels = false; }, "Neither read nor write compiled kernels");

@@ -38,7 +38,7 @@ struct Frame {
 };
 
 struct RendererSettings {
-    int device = -1;          // DeviceInfo::index, or -1 for the default
+    int device = -1;  // DeviceInfo::index, or -1 for the default
     // Of compiled kernels; empty = $TESSERA_CACHE, $XDG_CACHE_HOME/tessera or ~/.cache/tessera. Not used on PoCL, which keeps its own.
     std::string cacheFolder;
     bool cacheKernels = true;

@@ -83,8 +83,8 @@ void Film::enqueueBatch(const frame_params& frame, const split_limits& limits, c
 
 void Film::enqueueShade(const frame_params& frame, const picture_planes& planes, const ShadeInputs& inputs) {
     session_.launch(session_.kernels.with("shade_tiles", frame, planes, inputs.patches.eyePoints.cl(), inputs.patches.placed.cl(),
-                                          inputs.objects, inputs.lights, referencePatch_.cl(), referenceU_.cl(), referenceV_.cl(), inputs.queues.ready(),
-                                          samples_.cl(), touched_.cl(), inputs.picture, inputs.queues.state()),
+                                          inputs.objects, inputs.lights, referencePatch_.cl(), referenceU_.cl(), referenceV_.cl(),
+                                          inputs.queues.ready(), samples_.cl(), touched_.cl(), inputs.picture, inputs.queues.state()),
                     "shade_tiles");
 }
 

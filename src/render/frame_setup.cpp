@@ -104,7 +104,9 @@ std::vector<placed_object> placeObjects(const Scene& scene, const glm::dmat4& ey
     return placed;
 }
 
-std::vector<eye_light> placeLights(const Scene& scene, const glm::dmat4& eyeFromWorld) {
+std::vector<eye_light> placeLights(const Scene& scene, const glm::dmat4& eyeFromWorld, bool headlight) {
+    const eye_light atCamera{{0.0F, 0.0F, 0.0F}, {1.0F, 1.0F, 1.0F}, LIGHT_HEAD};
+    if (headlight || scene.lights.empty()) return {atCamera};
     std::vector<eye_light> placed;
     for (const Light& light : scene.lights) {
         eye_light& out = placed.emplace_back();
@@ -115,7 +117,6 @@ std::vector<eye_light> placeLights(const Scene& scene, const glm::dmat4& eyeFrom
         setVector(out.radiance, glm::dvec3(light.color) * static_cast<double>(light.intensity));
         out.kind = static_cast<std::uint32_t>(light.kind);
     }
-    if (placed.empty()) placed.push_back({{0.0F, 0.0F, -1.0F}, {1.0F, 1.0F, 1.0F}, LIGHT_DIRECTIONAL});
     return placed;
 }
 

@@ -22,7 +22,7 @@ namespace tessera {
 
 [[nodiscard]] std::vector<placed_object> placeObjects(const Scene& scene, const glm::dmat4& eyeFromWorld);
 
-// The scene's lights in eye space; a head-light of radiance 1 where it has none.
-[[nodiscard]] std::vector<eye_light> placeLights(const Scene& scene, const glm::dmat4& eyeFromWorld);
+// The scene's lights in eye space; a head-light of radiance 1 instead where it has none or one is asked for.
+[[nodiscard]] std::vector<eye_light> placeLights(const Scene& scene, const glm::dmat4& eyeFromWorld, bool headlight);
 
 }  // namespace tessera

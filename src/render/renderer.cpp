@@ -167,7 +167,7 @@ Frame Renderer::Impl::drawFrame(const Camera& camera, const RenderOptions& optio
     frame_params params = setUpFrame(camera, options, layout, patches);
     const glm::dmat4 view = eyeFromWorld(camera);
     const std::vector<placed_object> placedObjects = placeObjects(scene, view);
-    const std::vector<eye_light> placedLights = placeLights(scene, view);
+    const std::vector<eye_light> placedLights = placeLights(scene, view, options.headlight);
     params.lights = static_cast<uint>(placedLights.size());
 
     session.timeline.restart();
