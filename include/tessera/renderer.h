@@ -42,6 +42,9 @@ struct RendererSettings {
     // Of compiled kernels; empty = $TESSERA_CACHE, $XDG_CACHE_HOME/tessera or ~/.cache/tessera. Not used on PoCL, which keeps its own.
     std::string cacheFolder;
     bool cacheKernels = true;
+    // Values that a work-item computes at a time: 16 or 8 (vectors, for CPUs), 1 (for GPUs), or 0 for what suits the device. The picture is
+    // the same.
+    int lanes = 0;
 };
 
 class Renderer {

@@ -1,7 +1,7 @@
 // Names and ranges of what a user can say about a frame.
 #include "tessera/options.h"
 
-#include <cmath>
+#include <sstream>
 #include <string>
 
 #include "tessera/error.h"
@@ -14,9 +14,9 @@ template <typename T>
 void requireRange(const char* option, T value, T least, T most) {
     if (value >= least && value <= most) return;
     const auto text = [](T number) {
-        std::string digits = std::to_string(number);
-        if (digits.find('.') != std::string::npos) digits.erase(digits.find_last_not_of("0.") + 1);
-        return digits.empty() ? std::string("0") : digits;
+        std::ostringstream digits;
+        digits << number;
+        return digits.str();
     };
     throw Error(std::string(option) + " is " + text(value) + ", but must be " + text(least) + " to " + text(most));
 }

@@ -31,7 +31,7 @@ void DeviceBuffer::release() {
 }
 
 DeviceBuffer DeviceMemory::allocate(const std::string& purpose, std::uint64_t bytes, cl_mem_flags flags) {
-    const std::uint64_t size = std::max<std::uint64_t>(bytes, 16);
+    const std::uint64_t size = bytesFor(bytes);
     const DeviceInfo& info = device_.info;
     if (size > info.maxAllocationBytes || count_->now + size > info.globalBytes) {
         throw Error(purpose + " would need " + bytesText(size) + " of device memory beside " + bytesText(count_->now) + " in use, but " +
@@ -52,7 +52,7 @@ DeviceBuffer DeviceMemory::allocate(const std::string& purpose, std::uint64_t by
 }
 
 bool DeviceMemory::ensure(DeviceBuffer& buffer, const std::string& purpose, std::uint64_t bytes, cl_mem_flags flags) {
-    if (buffer.bytes() >= std::max<std::uint64_t>(bytes, 16)) return false;
+    if (buffer.bytes() >= bytesFor(bytes)) return false;
     buffer = DeviceBuffer();
     buffer = allocate(purpose, bytes, flags);
     return true;

@@ -42,7 +42,10 @@ class DeviceMemory {
 public:
     explicit DeviceMemory(const OpenDevice& device) : device_(device), count_(std::make_shared<DeviceBuffer::Count>()) {}
 
-    // A buffer of at least 16 bytes. `purpose` names it in the Error thrown when the device cannot give it.
+    // What a buffer of `bytes` takes: 16 at least.
+    [[nodiscard]] static constexpr std::uint64_t bytesFor(std::uint64_t bytes) { return bytes < 16 ? 16 : bytes; }
+
+    // A buffer of bytesFor(bytes). `purpose` names it in the Error thrown when the device cannot give it.
     [[nodiscard]] DeviceBuffer allocate(const std::string& purpose, std::uint64_t bytes, cl_mem_flags flags = CL_MEM_READ_WRITE);
 
     // Makes `buffer` hold at least `bytes`; its contents are lost when it grows. Returns whether it is another buffer now.

@@ -108,14 +108,13 @@ FoundDevice chooseDevice(int index) {
     return chosen;
 }
 
-DeviceShape shapeOf(const DeviceInfo& info) {
-    DeviceShape shape;
-    if (info.type == "CPU") {
-        shape.groups = info.computeUnits * 16;
-    } else {
-        shape = DeviceShape{64, 1, info.computeUnits * 32};
-    }
-    return shape;
+// A CPU's work-item does a group's work in vectors; elsewhere 64 work-items share it. The groups of a launch are a few for each
+// compute unit, so that those done early take more.
+DeviceShape shapeOf(const DeviceInfo& info, int lanes) {
+    const int chosen = lanes != 0 ? lanes : (info.type == "CPU" ? 16 : 1);
+    if (chosen == 16 || chosen == 8) return {1, chosen, info.computeUnits * 16};
+    if (chosen == 1) return {64, 1, info.computeUnits * 32};
+    throw Error("lanes is " + std::to_string(lanes) + ", but must be 1, 8 or 16, or 0 for the device's own");
 }
 
 }  // namespace
@@ -126,7 +125,7 @@ std::vector<DeviceInfo> listDevices() {
     return infos;
 }
 
-OpenDevice openDevice(int index) {
+OpenDevice openDevice(int index, int lanes) {
     const auto [device, info] = chooseDevice(index);
     try {
         OpenDevice open;
@@ -134,7 +133,7 @@ OpenDevice openDevice(int index) {
         open.device = device;
         open.context = cl::Context(device);
         open.queue = cl::CommandQueue(open.context, device, CL_QUEUE_PROFILING_ENABLE);
-        open.shape = shapeOf(info);
+        open.shape = shapeOf(info, lanes);
         return open;
     } catch (const cl::Error& error) {
         throw Error("device " + std::to_string(info.index) + " (" + info.name + ") can't be opened: " + error.what() + " gave " +

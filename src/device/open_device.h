@@ -21,8 +21,9 @@ struct OpenDevice {
     DeviceShape shape;
 };
 
-// Opens DeviceInfo::index `index`, or the default for -1. Throws Error: no device, unknown index, unusable device.
-[[nodiscard]] OpenDevice openDevice(int index);
+// Opens DeviceInfo::index `index`, or the default for -1. `lanes`: 16, 8 or 1, or 0 for what suits the device's type.
+// Throws Error: no device, unknown index, unusable device, other numbers of lanes.
+[[nodiscard]] OpenDevice openDevice(int index, int lanes = 0);
 
 // "CL_OUT_OF_RESOURCES (-5)" and the like, for messages.
 [[nodiscard]] std::string clErrorName(cl_int code);

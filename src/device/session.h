@@ -9,8 +9,8 @@
 namespace tessera {
 
 struct DeviceSession {
-    DeviceSession(int deviceIndex, const KernelSources& sources, const std::filesystem::path& cacheFolder)
-        : device(openDevice(deviceIndex)), memory(device), timeline(device), kernels(device, sources, cacheFolder) {}
+    DeviceSession(int deviceIndex, const KernelSources& sources, const std::filesystem::path& cacheFolder, int lanes = 0)
+        : device(openDevice(deviceIndex, lanes)), memory(device), timeline(device), kernels(device, sources, cacheFolder) {}
     DeviceSession(const DeviceSession&) = delete;
     DeviceSession& operator=(const DeviceSession&) = delete;
 

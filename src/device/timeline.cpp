@@ -3,6 +3,12 @@
 #include <algorithm>
 
 namespace tessera {
+namespace {
+
+// Events held before those that have ended are summed: a frame of small batches has millions of commands.
+constexpr std::size_t commandsMost = 1024;
+
+}  // namespace
 
 void Timeline::launch(const cl::Kernel& kernel, const std::string& label, std::size_t groups, std::size_t local) {
     device_.queue.enqueueNDRangeKernel(kernel, cl::NullRange, cl::NDRange(groups * local), cl::NDRange(local), nullptr, record(label));
@@ -36,25 +42,47 @@ void* Timeline::map(const cl::Buffer& buffer, std::size_t bytes) {
 
 void Timeline::unmap(const cl::Buffer& buffer, void* mapped) { device_.queue.enqueueUnmapMemObject(buffer, mapped); }
 
-std::map<std::string, double> Timeline::milliseconds() const {
+void Timeline::restart(bool keepTrace) {
+    commands_.clear();
+    sumsNs_.clear();
+    trace_.clear();
+    keepTrace_ = keepTrace;
+}
+
+cl::Event* Timeline::record(const std::string& label) {
+    if (commands_.size() >= commandsMost) settle();
+    return &commands_.emplace_back(Command{label, {}}).event;
+}
+
+// Sums the commands that have ended, oldest first, and lets go of their events.
+void Timeline::settle() {
+    while (!commands_.empty() && commands_.front().event.getInfo<CL_EVENT_COMMAND_EXECUTION_STATUS>() == CL_COMPLETE) {
+        const Command& command = commands_.front();
+        TraceEvent event;
+        event.startNs = command.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
+        event.endNs = std::max(event.startNs, command.event.getProfilingInfo<CL_PROFILING_COMMAND_END>());
+        sumsNs_[command.label] += event.endNs - event.startNs;
+        if (keepTrace_) {
+            event.name = command.label;
+            event.queuedNs = command.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
+            trace_.push_back(std::move(event));
+        }
+        commands_.pop_front();
+    }
+}
+
+std::map<std::string, double> Timeline::milliseconds() {
+    settle();
     std::map<std::string, double> sums;
-    for (const TraceEvent& event : trace()) sums[event.name] += static_cast<double>(event.endNs - event.startNs) * 1e-6;
+    for (const auto& [label, nanoseconds] : sumsNs_) sums[label] = static_cast<double>(nanoseconds) * 1e-6;
     return sums;
 }
 
-std::vector<TraceEvent> Timeline::trace() const {
-    std::vector<TraceEvent> events;
-    events.reserve(commands_.size());
+std::vector<TraceEvent> Timeline::trace() {
+    settle();
+    std::vector<TraceEvent> events = trace_;
     std::uint64_t first = ~std::uint64_t{0};
-    for (const Command& command : commands_) {
-        TraceEvent event;
-        event.name = command.label;
-        event.queuedNs = command.event.getProfilingInfo<CL_PROFILING_COMMAND_QUEUED>();
-        event.startNs = command.event.getProfilingInfo<CL_PROFILING_COMMAND_START>();
-        event.endNs = std::max(event.startNs, command.event.getProfilingInfo<CL_PROFILING_COMMAND_END>());
-        first = std::min(first, event.queuedNs);
-        events.push_back(std::move(event));
-    }
+    for (const TraceEvent& event : events) first = std::min(first, event.queuedNs);
     for (TraceEvent& event : events) {
         event.queuedNs -= first;
         event.startNs = std::max(event.startNs, first) - first;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 #include <map>
 #include <string>
 #include <vector>
@@ -15,8 +16,8 @@ class Timeline {
 public:
     explicit Timeline(const OpenDevice& device) : device_(device) {}
 
-    // Forgets the last frame's commands.
-    void restart() { commands_.clear(); }
+    // Forgets the last frame's commands. Only with `keepTrace` is each of the next one's kept to its end; else their sums are.
+    void restart(bool keepTrace);
 
     // Launches `groups` work-groups of `local` work-items. The label is the kernel's name.
     void launch(const cl::Kernel& kernel, const std::string& label, std::size_t groups, std::size_t local);
@@ -33,18 +34,22 @@ public:
     void finish() { device_.queue.finish(); }
 
     // Of the commands since restart(), all of which must have finished.
-    [[nodiscard]] std::map<std::string, double> milliseconds() const;
-    [[nodiscard]] std::vector<TraceEvent> trace() const;
+    [[nodiscard]] std::map<std::string, double> milliseconds();
+    [[nodiscard]] std::vector<TraceEvent> trace();
 
 private:
     struct Command {
         std::string label;
         cl::Event event;
     };
-    cl::Event* record(const std::string& label) { return &commands_.emplace_back(Command{label, {}}).event; }
+    cl::Event* record(const std::string& label);
+    void settle();
 
     const OpenDevice& device_;
-    std::vector<Command> commands_;
+    std::deque<Command> commands_;  // not yet summed
+    std::map<std::string, std::uint64_t> sumsNs_;
+    std::vector<TraceEvent> trace_;  // device times, absolute
+    bool keepTrace_ = false;
 };
 
 }  // namespace tessera

@@ -12,18 +12,21 @@ namespace {
 constexpr float farCull = 1000.0F;
 constexpr float ribbonPixels = 32.0F;
 
-void setBounds(frame_params& frame, const RenderOptions& options, const FilmLayout& film) {
-    frame.cull_left = static_cast<float>(film.x0) - ribbonPixels;
-    frame.cull_right = static_cast<float>(film.x0 + film.width - 1) + ribbonPixels;
-    // From the bottom, y up.
-    frame.cull_bottom = static_cast<float>(options.height - film.y0 - film.height) - ribbonPixels;
-    frame.cull_top = static_cast<float>(options.height - film.y0 - 1) + ribbonPixels;
+// Of the full picture, whatever the crop window: nine points do not bound a range, so against a smaller window other ranges would be
+// culled, and its pixels would not be the full picture's.
+void setBounds(frame_params& frame, const RenderOptions& options) {
+    frame.cull_left = -ribbonPixels;
+    frame.cull_right = static_cast<float>(options.width - 1) + ribbonPixels;
+    frame.cull_bottom = -ribbonPixels;
+    frame.cull_top = static_cast<float>(options.height - 1) + ribbonPixels;
 }
 
 void setFilm(frame_params& frame, const FilmLayout& film) {
     frame.pixel_samples = film.pixelSamples;
     frame.cells_x = film.width * film.pixelSamples;
     frame.cells_y = film.height * film.pixelSamples;
+    frame.cell_x0 = film.x0 * film.pixelSamples;
+    frame.cell_y0 = film.y0 * film.pixelSamples;
     frame.tile_cells = film.tileCells;
     frame.tile_inverse = 1.0F / static_cast<float>(film.tileCells);
     frame.tiles_x = film.tilesX;
@@ -66,7 +69,7 @@ frame_params setUpFrame(const Camera& camera, const RenderOptions& options, cons
     frame.centre_y = static_cast<float>(options.height) * 0.5F;
     frame.near_plane = camera.near;
     frame.far_cull = farCull;
-    setBounds(frame, options, film);
+    setBounds(frame, options);
     frame.split_bound = options.splitBound;
     frame.max_depth = static_cast<std::uint32_t>(options.maxDepth);
     frame.dice_rate = static_cast<std::uint32_t>(options.diceRate);

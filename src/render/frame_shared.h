@@ -31,6 +31,8 @@ typedef struct {
     int pixel_samples;
     int cells_x;  // of the crop window
     int cells_y;
+    int cell_x0;  // the crop window's corner in the full picture
+    int cell_y0;
     int tile_cells;      // cells along a side of a tile; a multiple of pixel_samples
     float tile_inverse;  // 1 / tile_cells
     int tiles_x;

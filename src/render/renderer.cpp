@@ -74,7 +74,7 @@ const Plane* Frame::plane(std::string_view planeName) const {
 
 struct Renderer::Impl {
     explicit Impl(const RendererSettings& settings)
-        : session(settings.device, kernelSources(), cacheFolderOf(settings)), queues(session), film(session) {}
+        : session(settings.device, kernelSources(), cacheFolderOf(settings), settings.lanes), queues(session), film(session) {}
     ~Impl() { releasePicture(); }
     Impl(const Impl&) = delete;
     Impl& operator=(const Impl&) = delete;
@@ -85,7 +85,7 @@ struct Renderer::Impl {
     void placePatches(const frame_params& params, const std::vector<placed_object>& placed);
     SplitResult split(const frame_params& params, const RenderOptions& options, const Progress& progress);
     Frame drawFrame(const Camera& camera, const RenderOptions& options, const Progress& progress);
-    Statistics gather(const RenderOptions& options, const SplitResult& result, std::uint32_t pixelsCovered, double frameMs) const;
+    Statistics gather(const RenderOptions& options, const SplitResult& result, std::uint32_t pixelsCovered, double frameMs);
     Frame present(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& picture) const;
 
     DeviceSession session;
@@ -106,7 +106,7 @@ void Renderer::Impl::releasePicture() {
         session.timeline.unmap(picture.cl(), mapped);
         session.timeline.finish();
     } catch (const cl::Error&) {
-        session.memory.restartPeak();  // the device is gone; nothing is left to give back
+        mapped = nullptr;  // the device is gone, and the mapping with it
     }
     mapped = nullptr;
 }
@@ -170,7 +170,7 @@ Frame Renderer::Impl::drawFrame(const Camera& camera, const RenderOptions& optio
     const std::vector<eye_light> placedLights = placeLights(scene, view, options.headlight);
     params.lights = static_cast<uint>(placedLights.size());
 
-    session.timeline.restart();
+    session.timeline.restart(options.trace);
     film.distrust();
     const auto start = Clock::now();
     placePatches(params, placedObjects);
@@ -188,8 +188,7 @@ Frame Renderer::Impl::drawFrame(const Camera& camera, const RenderOptions& optio
     return frame;
 }
 
-Statistics Renderer::Impl::gather(const RenderOptions& options, const SplitResult& result, std::uint32_t pixelsCovered,
-                                  double frameMs) const {
+Statistics Renderer::Impl::gather(const RenderOptions& options, const SplitResult& result, std::uint32_t pixelsCovered, double frameMs) {
     Statistics statistics;
     statistics.device = session.device.info.name;
     statistics.width = options.width;

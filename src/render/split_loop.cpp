@@ -48,6 +48,26 @@ struct Rounds {
     }
 };
 
+// Rounds without an iteration or a batch after which something must be wrong: with p free places in `ready` an iteration runs, and
+// without them a batch does.
+constexpr int idleRoundsMost = 16;
+
+// Throws Error when the counts have stood still for too long, lest a faulty device keep the host enqueuing for ever.
+class Watch {
+public:
+    void look(const split_state& state) {
+        idleRounds_ = state.iterations == iterations_ && state.batches == batches_ ? idleRounds_ + 1 : 0;
+        iterations_ = state.iterations;
+        batches_ = state.batches;
+        if (idleRounds_ > idleRoundsMost) throw Error("splitting stands still on the device; try --method cpu or another --device");
+    }
+
+private:
+    std::uint32_t iterations_ = 0;
+    std::uint32_t batches_ = 0;
+    int idleRounds_ = 0;
+};
+
 void report(const SplitLoop& loop, double fraction) {
     if (loop.progress) loop.progress("split and dice", fraction);
 }
@@ -77,6 +97,7 @@ SplitResult runBounded(const SplitLoop& loop) {
     const split_limits limits = boundedLimits(loop.options);
     loop.queues.restart();
     Rounds rounds;
+    Watch watch;
     SplitResult result;
     bool over = loop.patches.patches == 0;
     while (!over) {
@@ -90,6 +111,7 @@ SplitResult runBounded(const SplitLoop& loop) {
         const split_state seen = rounds.waitForOldest();
         report(loop, static_cast<double>(seen.area_done) / loop.patches.patches);
         over = splitOver(seen, loop.patches) && seen.ready_count == 0;
+        if (!over) watch.look(seen);
     }
     while (!rounds.queue.empty()) result.state = rounds.waitForOldest();
     result.stackPeak = result.state.stack_peak;

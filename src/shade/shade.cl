@@ -172,8 +172,8 @@ static inline void shade_slots(const frame_params* frame, shade_list list, int f
 static inline void write_normal(const frame_params* frame, global float* to, float x, float y, float z) {
     const float* m = frame->world_from_eye;
     float length = sqrt(x * x + y * y + z * z);
-    float scale = length > 0.0f ? 1.0f / length : 0.0f;
-    for (int row = 0; row < 3; ++row) to[row] = (m[3 * row] * x + m[3 * row + 1] * y + m[3 * row + 2] * z) * scale;
+    for (int row = 0; row < 3; ++row)
+        to[row] = length > 0.0f ? (m[3 * row] * x + m[3 * row + 1] * y + m[3 * row + 2] * z) / length : 0.0f;
 }
 
 typedef struct {

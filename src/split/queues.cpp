@@ -11,8 +11,15 @@ constexpr std::uint64_t chunks(std::uint64_t ranges) { return (ranges + SPLIT_CH
 }  // namespace
 
 std::uint64_t SplitQueues::bytes(const split_limits& limits, std::uint64_t stackRanges) {
-    return (stackRanges + limits.batch + limits.ready_capacity) * sizeof(range_t) + limits.batch +
-           chunks(limits.batch) * sizeof(chunk_sum) + sizeof(split_state);
+    const std::uint64_t buffers[] = {stackRanges * sizeof(range_t),
+                                     limits.batch * sizeof(range_t),
+                                     limits.ready_capacity * sizeof(range_t),
+                                     limits.batch,
+                                     chunks(limits.batch) * sizeof(chunk_sum),
+                                     sizeof(split_state)};
+    std::uint64_t sum = 0;
+    for (const std::uint64_t buffer : buffers) sum += DeviceMemory::bytesFor(buffer);
+    return sum;
 }
 
 void SplitQueues::reserve(const split_limits& limits, std::uint64_t stackRanges) {

@@ -14,7 +14,7 @@ class SplitQueues {
 public:
     explicit SplitQueues(DeviceSession& session) : session_(session) {}
 
-    // The bytes that reserve() takes at most.
+    // The bytes that reserve() takes.
     [[nodiscard]] static std::uint64_t bytes(const split_limits& limits, std::uint64_t stackRanges);
 
     // Makes room for iterations within `limits` on a stack of `stackRanges`. Contents are lost.
