@@ -41,7 +41,8 @@ static inline grid_domain domain_of(const frame_params* frame, range_t range) {
 }
 
 // The lanes' eye-space vertices; vertex i is column i mod (rate + 1) of row i / (rate + 1).
-static inline __attribute__((always_inline)) vpoint grid_vertices(const frame_params* frame, grid_domain domain, global const float* net, int count, int first) {
+static inline __attribute__((always_inline)) vpoint grid_vertices(const frame_params* frame, grid_domain domain, global const float* net,
+                                                                  int count, int first) {
     int side = (int)frame->dice_rate + 1;
     vint i = first + vlane_index();
     // Exact: i is below 2^11, and the half keeps the quotient away from integers.

@@ -10,10 +10,10 @@
 #include "film/film.clh"
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void resolve_samples(frame_params frame, split_limits limits,
-                                                                               global const split_state* state,
-                                                                               global const range_t* ready, global uint2* samples,
-                                                                               global uchar* touched, global uint* reference_patch,
-                                                                               global float* reference_u, global float* reference_v) {
+                                                                               global const split_state* state, global const range_t* ready,
+                                                                               global uint2* samples, global uchar* touched,
+                                                                               global uint* reference_patch, global float* reference_u,
+                                                                               global float* reference_v) {
     if (batch_to_hide(&frame, state, limits) == 0u || batch_is_last(&frame, state)) return;
     int side = frame.tile_cells;
     int count = side * side;

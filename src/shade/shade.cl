@@ -18,12 +18,12 @@
 // The tile's samples and shading points. Pixel p lists its micropolygons in places [p N N, p N N + count), and has them shaded in
 // the `count` slots from `first` on: slots are dense, so that no lane idles.
 typedef struct {
-    local ulong* key;     // of each sample, as in the film
-    local int* place;     // of each sample: where its pixel lists its micropolygon, from p N N on
-    local int* sample;    // of each place: one of its samples
-    local int* weight;    // of each place: the number of its samples
-    local int* count;     // of each pixel
-    local int* first;     // of each pixel, and of one behind the last
+    local ulong* key;        // of each sample, as in the film
+    local int* place;        // of each sample: where its pixel lists its micropolygon, from p N N on
+    local int* sample;       // of each place: one of its samples
+    local int* weight;       // of each place: the number of its samples
+    local int* count;        // of each pixel
+    local int* first;        // of each pixel, and of one behind the last
     local int* patch_index;  // of each slot
     local float* u;
     local float* v;
@@ -107,8 +107,8 @@ static inline void fill_slots(const frame_params* frame, shade_list list, sample
     }
 }
 
-static inline void write_nearest(const frame_params* frame, shade_list list, global float* picture, picture_planes planes, uint pixel, int base, int nearest,
-                                 sample_references references, global const placed_patch* patches) {
+static inline void write_nearest(const frame_params* frame, shade_list list, global float* picture, picture_planes planes, uint pixel,
+                                 int base, int nearest, sample_references references, global const placed_patch* patches) {
     ulong key = list.key[nearest];
     if (planes.z != NO_PLANE) picture[planes.z + pixel] = 1.0f / as_float(~(uint)(key >> 32));
     if (planes.uv == NO_PLANE && planes.object == NO_PLANE && planes.patch_id == NO_PLANE) return;
@@ -138,8 +138,7 @@ static inline vpoint blend_point(vpoint otherwise, vpoint then, vint mask) {
 
 // Evaluates the lanes' points a patch at a time (neighbours mostly share one) and shades them together.
 static inline void shade_slots(const frame_params* frame, shade_list list, int first, int count, global const float* eye_points,
-                               global const placed_patch* patches, global const placed_object* objects,
-                               global const eye_light* lights) {
+                               global const placed_patch* patches, global const placed_object* objects, global const eye_light* lights) {
     vint patch_lanes = load_lanes(list.patch_index + first);
     vfloat u = load_lanes(list.u + first), v = load_lanes(list.v + first);
     vint waiting = vlt(first + vlane_index(), (vint)(count));
@@ -172,8 +171,7 @@ static inline void shade_slots(const frame_params* frame, shade_list list, int f
 static inline void write_normal(const frame_params* frame, global float* to, float x, float y, float z) {
     const float* m = frame->world_from_eye;
     float length = sqrt(x * x + y * y + z * z);
-    for (int row = 0; row < 3; ++row)
-        to[row] = length > 0.0f ? (m[3 * row] * x + m[3 * row + 1] * y + m[3 * row + 2] * z) / length : 0.0f;
+    for (int row = 0; row < 3; ++row) to[row] = length > 0.0f ? (m[3 * row] * x + m[3 * row + 1] * y + m[3 * row + 2] * z) / length : 0.0f;
 }
 
 typedef struct {
@@ -248,15 +246,14 @@ static inline int pixel_place(const frame_params* frame, const pixel_walk* walk)
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void shade_tiles(
     frame_params frame, picture_planes planes, global const float* eye_points, global const placed_patch* patches,
     global const placed_object* objects, global const eye_light* lights, global const uint* reference_patch,
-    global const float* reference_u, global const float* reference_v, global const range_t* ready, global ulong* samples, global uchar* touched, global float* picture,
-    global split_state* state) {
+    global const float* reference_u, global const float* reference_v, global const range_t* ready, global ulong* samples,
+    global uchar* touched, global float* picture, global split_state* state) {
     local ulong list_key[TILE_SAMPLES_MOST];
     local int list_place[TILE_SAMPLES_MOST], list_sample[TILE_SAMPLES_MOST], list_count[TILE_PIXELS_MOST], list_first[TILE_PIXELS_MOST + 1];
     local int list_weight[TILE_SAMPLES_MOST];
     local int list_patch[LIST_SLOTS];
     local float list_u[LIST_SLOTS], list_v[LIST_SLOTS], list_result[6 * LIST_SLOTS];
-    shade_list list = {list_key,   list_place, list_sample, list_weight, list_count,
-                       list_first, list_patch, list_u,      list_v,      list_result};
+    shade_list list = {list_key, list_place, list_sample, list_weight, list_count, list_first, list_patch, list_u, list_v, list_result};
     sample_references references = {reference_patch, reference_u, reference_v, ready};
     int lid = (int)get_local_id(0);
     int tile_samples = frame.tile_cells * frame.tile_cells;

@@ -95,8 +95,8 @@ static inline vint bound_lanes(const frame_params* frame, split_plan plan, globa
         v_level[k] = (int)(range.v_side >> SIDE_LEVEL_SHIFT);
         gregory[k] = range.patch_index < frame->bezier_patches ? 0 : -1;
     }
-    return bound_ranges(frame, net, stride, load_lanes(u0), load_lanes(v0), load_lanes(u_size), load_lanes(v_size), load_lanes(u_level), load_lanes(v_level),
-                        load_lanes(gregory));
+    return bound_ranges(frame, net, stride, load_lanes(u0), load_lanes(v0), load_lanes(u_size), load_lanes(v_size), load_lanes(u_level),
+                        load_lanes(v_level), load_lanes(gregory));
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void split_bound(frame_params frame, split_limits limits,
