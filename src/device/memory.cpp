@@ -9,25 +9,19 @@
 namespace tessera {
 
 DeviceBuffer::DeviceBuffer(DeviceBuffer&& other) noexcept
-    : buffer_(std::exchange(other.buffer_, {})), bytes_(std::exchange(other.bytes_, 0)), count_(std::exchange(other.count_, nullptr)) {}
+    : buffer_(std::move(other.buffer_)), bytes_(std::exchange(other.bytes_, 0)), count_(std::move(other.count_)) {}
 
 DeviceBuffer& DeviceBuffer::operator=(DeviceBuffer&& other) noexcept {
-    if (this != &other) {
-        release();
-        buffer_ = std::exchange(other.buffer_, {});
-        bytes_ = std::exchange(other.bytes_, 0);
-        count_ = std::exchange(other.count_, nullptr);
-    }
+    DeviceBuffer taken(std::move(other));
+    // The handles themselves: the bindings' own assignment may throw.
+    std::swap(buffer_(), taken.buffer_());
+    std::swap(bytes_, taken.bytes_);
+    std::swap(count_, taken.count_);
     return *this;
 }
 
-DeviceBuffer::~DeviceBuffer() { release(); }
-
-void DeviceBuffer::release() {
-    buffer_ = {};
+DeviceBuffer::~DeviceBuffer() {
     if (count_) count_->now -= bytes_;
-    count_.reset();
-    bytes_ = 0;
 }
 
 DeviceBuffer DeviceMemory::allocate(const std::string& purpose, std::uint64_t bytes, cl_mem_flags flags) {

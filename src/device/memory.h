@@ -30,7 +30,6 @@ private:
         std::uint64_t now = 0;
         std::uint64_t peak = 0;
     };
-    void release();
 
     cl::Buffer buffer_;
     std::uint64_t bytes_ = 0;

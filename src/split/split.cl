@@ -71,8 +71,15 @@ static inline void load_net(const frame_params* frame, global const float* eye_p
         // Unrolled, or LLVM vectorises the copy into scatters, which take twice the time of the bounding.
 #pragma unroll
         for (int k = 0; k < 16; ++k) to[k * stride] = net[k];
-        if (count == GREGORY_POINTS)
+        if (count == GREGORY_POINTS) {
             for (int k = 16; k < 20; ++k) to[k * stride] = net[k];
+        } else if (frame->bezier_patches < frame->patches) {
+            // A Gregory patch may stand in another lane (bound.clh).
+            to[16 * stride] = net[5];
+            to[17 * stride] = net[6];
+            to[18 * stride] = net[10];
+            to[19 * stride] = net[9];
+        }
         net += count;
     }
 }
