@@ -12,7 +12,7 @@ std::vector<SceneSource> fileScenes(const std::string& folder) {
     std::vector<SceneSource> sources;
     std::error_code missing;
     for (const auto& entry : std::filesystem::directory_iterator(folder, missing)) {
-        const std::filesystem::path path = entry.path();
+        const std::filesystem::path& path = entry.path();
         if (path.extension() == ".mscene") sources.push_back({path.stem().string(), [path] { return readMscene(path); }});
     }
     std::sort(sources.begin(), sources.end(), [](const SceneSource& a, const SceneSource& b) { return a.name < b.name; });

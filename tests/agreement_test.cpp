@@ -107,7 +107,7 @@ class Drawn {
 public:
     explicit Drawn(const Frame& frame) : frame_(frame) {}
     [[nodiscard]] Rendered at(int x, int y) const {
-        const std::size_t p = static_cast<std::size_t>(y * width + x);
+        const std::size_t p = static_cast<std::size_t>(y) * width + static_cast<std::size_t>(x);
         return {value("rgba", 4 * p + 3) > 0.0,
                 value("Z", p),
                 {value("N", 3 * p), value("N", 3 * p + 1), value("N", 3 * p + 2)},

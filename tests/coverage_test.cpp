@@ -104,7 +104,8 @@ int wrongPixels(const Kept& picture, const Camera& camera, double reach) {
         for (int x = 0; x < picture.width(); ++x) {
             const bool here = sees(x + 0.5, y + 0.5);
             bool even = true;
-            for (int k = 0; k < 9; ++k) even = even && sees(x - 0.5 + k % 3, y - 0.5 + k / 3) == here;
+            for (const double down : {-0.5, 0.5, 1.5})
+                for (const double right : {-0.5, 0.5, 1.5}) even = even && sees(x + right, y + down) == here;
             wrong += even && picture.covered(x, y) != here ? 1 : 0;
         }
     }
@@ -171,7 +172,7 @@ TEST(Cracks, InsideAClosedSurfaceTheBackgroundShowsThroughCracksOnly) {
             options.maxDepth = depth;
             Camera camera = cameraAt({0.3, -0.2, 0.1}, glm::dvec3(0.3, -0.2, 0.1) + target, 90);
             const Kept picture = draw(renderer, camera, options);
-            const std::size_t open = 160U * 120U - picture.coveredPixels();
+            const std::size_t open = std::size_t{160} * 120 - picture.coveredPixels();
             EXPECT_LE(open, 12U);
             EXPECT_EQ(picture.statistics().pixelsCovered, picture.coveredPixels());
         }

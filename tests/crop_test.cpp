@@ -76,15 +76,16 @@ TEST(Crop, WindowsThatShareEdgesTileThePicture) {
     const std::vector<float> down{0.0F, 0.02F, 0.45F, 0.8F, 1.0F};
     const RenderOptions options = pictureOptions(97, 61, 2);
     const Kept whole = draw(renderer, scene.cameras.front(), options);
-    std::vector<int> timesSeen(97 * 61, 0);
+    std::vector<int> timesSeen(std::size_t{97} * 61, 0);
     for (std::size_t i = 0; i + 1 < across.size(); ++i) {
         for (std::size_t j = 0; j + 1 < down.size(); ++j) {
             const Kept part = cropped(renderer, scene.cameras.front(), options, {across[i], across[i + 1], down[j], down[j + 1]});
             EXPECT_EQ(part.x0(), static_cast<int>(std::ceil(97.0 * static_cast<double>(across[i]))));
             EXPECT_EQ(part.y0(), static_cast<int>(std::ceil(61.0 * static_cast<double>(down[j]))));
             expectSameBits(whole, part);
-            for (int y = 0; y < part.height(); ++y)
-                for (int x = 0; x < part.width(); ++x) ++timesSeen[static_cast<std::size_t>((part.y0() + y) * 97 + part.x0() + x)];
+            for (int y = part.y0(); y < part.y0() + part.height(); ++y)
+                for (int x = part.x0(); x < part.x0() + part.width(); ++x)
+                    ++timesSeen[static_cast<std::size_t>(y) * 97 + static_cast<std::size_t>(x)];
         }
     }
     for (const int times : timesSeen) EXPECT_EQ(times, 1);
@@ -104,7 +105,7 @@ TEST(Crop, AFrameTellsItsWindowAndTheFullSize) {
     EXPECT_EQ(frame.height, 25);
     EXPECT_EQ(frame.fullWidth, 100);
     EXPECT_EQ(frame.fullHeight, 50);
-    for (const Plane& plane : frame.planes) EXPECT_EQ(plane.values.size(), 30U * 25U * static_cast<std::size_t>(plane.channels));
+    for (const Plane& plane : frame.planes) EXPECT_EQ(plane.values.size(), static_cast<std::size_t>(plane.channels) * 30 * 25);
 }
 
 // The largest picture there is, a little of it at a time.

@@ -13,7 +13,7 @@
 namespace tessera::test {
 namespace {
 
-const std::array<glm::vec3, 4> fourColors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}}};
+constexpr std::array<glm::vec3, 4> fourColors{{{1, 0, 0}, {0, 1, 0}, {0, 0, 1}, {1, 1, 0}}};
 
 // The eight ways in which u and v can run over a rectangle.
 struct Orientation {
@@ -90,8 +90,10 @@ protected:
         Scene scene;
         for (int k = 0; k < 4; ++k) {
             const int part = lastFirst ? 3 - k : k;
-            const double x = margin + 0.5 + side * (part % 2);
-            const double y = margin + 0.5 + side * (part / 2);
+            const int column = part % 2;
+            const int row = part / 2;
+            const double x = margin + 0.5 + side * column;
+            const double y = margin + 0.5 + side * row;
             const Corners corners{screen.at(x, y), screen.at(x + side, y), screen.at(x + side, y + side), screen.at(x, y + side)};
             addObject(scene, bilinearPatch(orientation.turned(corners)), fourColors[static_cast<std::size_t>(part)]);
         }
@@ -212,7 +214,7 @@ Scene jitteredSheet(const Screen& screen, int cells, int size, int rate, int pix
         places.push_back(glm::round((0.5 + 1.0 * size * (glm::dvec2(cell) + off)) / step) * step + glm::dvec2(margin));
     }
     const auto corner = [&](int x, int y) {
-        const glm::dvec2 place = places[static_cast<std::size_t>(y * corners + x)];
+        const glm::dvec2 place = places[static_cast<std::size_t>(y) * static_cast<std::size_t>(corners) + static_cast<std::size_t>(x)];
         return screen.at(place.x, place.y);
     };
     Scene scene;

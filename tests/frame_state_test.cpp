@@ -31,7 +31,7 @@ protected:
         try {
             static_cast<void>(renderer.render(teapot.cameras.front(), options));
         } catch (const Error& error) {
-            const std::string text = error.what();
+            std::string text = error.what();
             EXPECT_EQ(text.find('\n'), std::string::npos) << text;
             return text;
         }

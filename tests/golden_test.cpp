@@ -42,7 +42,7 @@ std::vector<double> readPicture(const std::filesystem::path& path) {
     std::vector<double> linear;
     for (std::size_t k = 0; k < values.size(); ++k) {
         if (k % static_cast<std::size_t>(spec.nchannels) > 2) continue;
-        const double s = static_cast<double>(values[k]);
+        const auto s = static_cast<double>(values[k]);
         linear.push_back(s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4));
     }
     return linear;

@@ -108,7 +108,7 @@ Subject throughTheNearPlane() {
 // Every pixel of the twins may go to either.
 Subject coincident() {
     const Scene scene = coincidentScene();
-    return {"coincident", scene, scene.cameras.front(), width * height};
+    return {"coincident", scene, scene.cameras.front(), std::size_t{width} * height};
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, PictureOf, testing::Values(teapot(), bumpy(), mixed(), throughTheNearPlane(), coincident()),

@@ -25,24 +25,24 @@ using nlohmann::json;
 
 class Program : public testing::Test {
 protected:
-    RunningProgram start(const std::vector<std::string>& arguments, RunningProgram::Environment environment = {}) const {
+    [[nodiscard]] RunningProgram start(const std::vector<std::string>& arguments, RunningProgram::Environment environment = {}) const {
         // Kernels of the tests stay out of the user's own cache, and are compiled once for all tests.
         environment.emplace(environment.begin(), "TESSERA_CACHE", TESSERA_TEST_CACHE);
         return {TESSERA_PROGRAM_PATH, arguments, folder_.path(), environment};
     }
 
-    Outcome run(const std::vector<std::string>& arguments, const RunningProgram::Environment& environment = {}) const {
+    [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, const RunningProgram::Environment& environment = {}) const {
         return start(arguments, environment).wait();
     }
 
     // A small teapot: `more` options on top of it.
-    Outcome renderTeapot(const std::vector<std::string>& more) const {
+    [[nodiscard]] Outcome renderTeapot(const std::vector<std::string>& more) const {
         std::vector<std::string> arguments{"render", "teapot", "--size", "96x54", "--pixel-samples", "1"};
         arguments.insert(arguments.end(), more.begin(), more.end());
         return run(arguments);
     }
 
-    std::string file(const std::string& name) const { return readFile(folder_.path() / name); }
+    [[nodiscard]] std::string file(const std::string& name) const { return readFile(folder_.path() / name); }
 
     void write(const std::string& name, const Scene& scene) const {
         const std::vector<std::byte> bytes = serializeMscene(scene);

@@ -216,9 +216,12 @@ public:
             }
         }
     }
-    [[nodiscard]] double at(int x, int y) const { return z_[static_cast<std::size_t>(y * view_.width() + x)]; }
+    [[nodiscard]] double at(int x, int y) const { return z_[index(x, y)]; }
 
 private:
+    [[nodiscard]] std::size_t index(int x, int y) const {
+        return static_cast<std::size_t>(y) * static_cast<std::size_t>(view_.width()) + static_cast<std::size_t>(x);
+    }
     static double side(const glm::dvec3& a, const glm::dvec3& b, double x, double y) {
         return (b.x - a.x) * (y - a.y) - (b.y - a.y) * (x - a.x);
     }
@@ -232,7 +235,7 @@ private:
         const glm::dvec3 w(side(b, c, x + 0.5, y + 0.5), side(c, a, x + 0.5, y + 0.5), side(a, b, x + 0.5, y + 0.5));
         const double sum = w.x + w.y + w.z;
         if (sum == 0 || w.x * sum < 0 || w.y * sum < 0 || w.z * sum < 0) return;
-        double& z = z_[static_cast<std::size_t>(y * view_.width() + x)];
+        double& z = z_[index(x, y)];
         z = std::min(z, sum / (w.x / a.z + w.y / b.z + w.z / c.z));
     }
 

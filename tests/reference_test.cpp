@@ -166,8 +166,8 @@ TEST(ReferenceSurface, NormalAtAPoleIsTheLimit) {
 TEST(ReferenceSurface, PatchWithoutAreaHasNoNormal) {
     const std::vector<glm::dvec3> point(16, glm::dvec3(1, 2, 3));
     expectNear(unitNormal(PatchKind::bezier, point, 0.5, 0.5), glm::dvec3(0.0), 0.0);
-    std::vector<glm::dvec3> line;
-    for (int i = 0; i < 16; ++i) line.emplace_back(i, 0, 0);
+    std::vector<glm::dvec3> line(16, glm::dvec3(0.0));
+    for (std::size_t i = 0; i < 16; ++i) line[i].x = static_cast<double>(i);
     expectNear(unitNormal(PatchKind::bezier, line, 0.2, 0.7), glm::dvec3(0.0), 0.0);
 }
 

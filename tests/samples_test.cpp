@@ -89,7 +89,7 @@ CoverageError coverageError(const HalfPlane& half, const Kept& picture) {
     return error;
 }
 
-const std::vector<double> angles{0.0, 3.0, 11.0, 22.5, 31.0, 45.0, 58.0, 67.0, 85.0, 90.0, 123.0, 171.0, 200.0, 285.0, 340.0};
+constexpr std::array angles{0.0, 3.0, 11.0, 22.5, 31.0, 45.0, 58.0, 67.0, 85.0, 90.0, 123.0, 171.0, 200.0, 285.0, 340.0};
 
 class Samples : public testing::Test {
 protected:

@@ -51,7 +51,7 @@ struct Hit {
 
 // Where the ray through the picture's point (x, y) meets the sheet. The camera is Camera{} at the origin, looking along -z.
 std::optional<Hit> cast(const Sheet& sheet, const frame_params& frame, double x, double y) {
-    const double focal = static_cast<double>(frame.focal);
+    const auto focal = static_cast<double>(frame.focal);
     const glm::dvec3 ray((x - width / 2.0) / focal, (height / 2.0 - y) / focal, -1.0);
     const double depth = glm::dot(sheet.normal(), sheet.corner) / glm::dot(sheet.normal(), ray);
     if (!std::isfinite(depth)) return std::nullopt;

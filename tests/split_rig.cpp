@@ -62,7 +62,7 @@ Decide SplitRig::hostBound() const {
     return [this](const range_t& range) {
         const std::size_t bezier = std::min(range.patch_index, frame_.bezier_patches);
         const std::size_t gregory = range.patch_index - bezier;
-        const float* const net = eyePoints_.data() + bezier * (3 * BEZIER_POINTS) + gregory * (3 * GREGORY_POINTS);
+        const float* const net = eyePoints_.data() + bezier * 3 * BEZIER_POINTS + gregory * 3 * GREGORY_POINTS;
         return boundOnHost(frame_, net, range.patch_index < frame_.bezier_patches ? BEZIER_POINTS : GREGORY_POINTS, range);
     };
 }

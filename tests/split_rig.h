@@ -3,8 +3,8 @@
 
 #include "split_model.h"
 
+#include "core/frame_shared.h"
 #include "device/session.h"
-#include "render/frame_shared.h"
 #include "split/queues.h"
 #include "surface/patch_set.h"
 #include "tessera/options.h"

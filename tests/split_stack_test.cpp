@@ -86,7 +86,7 @@ struct Report {
 
 // A frame's sums of areas are floats: exact while a patch's smallest parts of all patches fit 24 bits, else each iteration rounds.
 double areaTolerance(const Plan& plan, std::uint64_t iterations) {
-    const double patches = static_cast<double>(plan.plots.size());
+    const auto patches = static_cast<double>(plan.plots.size());
     if (patches * std::exp2(plan.depth) <= 0x1p24) return 0.0;
     return static_cast<double>(iterations + plan.batch) * patches * 0x1p-24;
 }
@@ -264,7 +264,7 @@ std::vector<Trial> disturbingTrials() {
     Random random(5);
     for (int k = 0; k < 12; ++k) {
         Trial trial;
-        const std::uint32_t p = oneOf<std::uint32_t>(random, {16, 100, 300});
+        const auto p = oneOf<std::uint32_t>(random, {16, 100, 300});
         trial.plan = {{}, below(random, 1U << 24U), p, oneOf<int>(random, {3, 6, 12})};
         trial.plan.plots = randomPlots(random, 10 * std::size_t{p}, trial.plan.depth);
         if (k % 3 == 0) trial.plan.plots.assign(10 * std::size_t{p}, Plot::coin);

@@ -34,7 +34,7 @@ std::string textOf(const glm::vec3& v) {
 // The world direction of the local -z axis, to six decimals: where cameras look and directional lights shine.
 glm::vec3 forward(const Transform& transform) {
     const glm::dvec3 direction = rotationMatrix(transform) * glm::dvec3(0.0, 0.0, -1.0);
-    return glm::vec3(glm::round(direction * 1e6) / 1e6);
+    return {glm::round(direction * 1e6) / 1e6};
 }
 
 std::string_view name(MaterialKind kind) { return kind == MaterialKind::matte ? "matte" : "plastic"; }

@@ -15,7 +15,7 @@ namespace {
 glm::dmat4 projection(const Camera& camera, double aspect) {
     const double scaleY = 0.5 / std::tan(static_cast<double>(camera.fovy) * std::numbers::pi / 360.0);
     const double scaleX = scaleY / aspect;
-    const double near = static_cast<double>(camera.near);
+    const auto near = static_cast<double>(camera.near);
     const double depth = static_cast<double>(camera.far) - near;
     glm::dmat4 m(0.0);
     m[0][0] = scaleX;

@@ -138,7 +138,7 @@ void addSplitOptions(CLI::App& app, RenderArguments& arguments) {
         ->type_name("P");
     addParsed(
         app, "--split-bound", [&options](const std::string& text) { options.splitBound = parseNumber(text); },
-        "Pixels, above 0: a range no longer than this either way is diced")
+        "Pixels, 0.25 to 65536: a range no longer than this either way is diced")
         ->type_name("PX")
         ->default_str(shortest(options.splitBound));
     addWhole(app, "--dice-rate", options.diceRate, {1, 32}, "Micropolygons along each side of a range, 1 to 32")->type_name("N");

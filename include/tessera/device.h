@@ -19,10 +19,10 @@ struct DeviceInfo {
     std::uint64_t globalBytes = 0;         // device memory
     std::uint64_t maxAllocationBytes = 0;  // largest single buffer
     std::uint64_t localBytes = 0;          // local memory of a work-group
-    bool usable = false;                   // OpenCL 1.2, a compiler, little-endian, single precision
+    bool usable = false;                   // OpenCL 1.2, available, a compiler, little-endian
     bool atomics64 = false;                // cl_khr_int64_extended_atomics: 64-bit atomic min
     bool correctlyRoundedDivideSqrt = false;
-    bool unifiedMemory = false;  // host and device share memory: pictures are mapped, not copied
+    bool unifiedMemory = false;  // host and device share memory: mapping a picture copies nothing
     bool isDefault = false;      // taken when none is named: the first usable GPU, else the first usable device
 };
 

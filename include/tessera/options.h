@@ -39,14 +39,14 @@ struct RenderOptions {
     std::array<float, 4> crop{0.0F, 1.0F, 0.0F, 1.0F};  // CropWindow: x0, x1, y0, y1 as fractions of the picture, y down
     SplitMethod method = SplitMethod::bounded;
     std::uint32_t batch = 40000;  // p: ranges bounded at a time, 1 to 1 << 20
-    float splitBound = 8.0F;      // pixels; a range is diced when it is no longer than this either way
+    float splitBound = 8.0F;      // pixels, 0.25 to 65536; a range is diced when it is no longer than this either way
     int diceRate = 8;             // micropolygons along each side of a range, 1 to 32
     int maxDepth = 23;            // splits after which a range is diced whatever its size, 0 to 24
     bool cullBackfaces = false;   // drop micropolygons whose normal du x dv points away
     bool headlight = false;       // light from the eye, of radiance 1 at any distance, instead of the scene's lights
     bool emulateAtomics = false;  // use the two-pass 32-bit fallback though the device has 64-bit atomics
-    std::array<float, 4> background{0.0F, 0.0F, 0.0F, 0.0F};  // linear RGB and alpha, not premultiplied
-    unsigned threads = 0;                                     // host threads of the cpu method; 0 = one a core
+    std::array<float, 4> background{0.0F, 0.0F, 0.0F, 0.0F};  // linear RGB, 0 to 65504, and alpha, 0 to 1, not premultiplied
+    unsigned threads = 0;                                     // host threads of the cpu method, at most 1024; 0 = one a core
     Aov aovs = Aov::none;
     bool trace = false;  // keep every kernel and transfer in Statistics::trace
 

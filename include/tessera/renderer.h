@@ -47,6 +47,7 @@ struct RendererSettings {
     int lanes = 0;
 };
 
+// Not for use by several threads at once; renderers of their own are.
 class Renderer {
 public:
     // Opens the device and builds or loads the kernels. Throws Error: no device, unknown index, build failure.

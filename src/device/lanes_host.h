@@ -1,5 +1,5 @@
 // Stands in for device/lanes.clh where the host compiles kernel headers as C++: one lane, the same bits.
-// Included inside namespace tessera::kernels by src/split/bound_host.cpp alone.
+// For src/split/bound_host.cpp alone.
 #pragma once
 
 #include <algorithm>

@@ -78,9 +78,14 @@ std::string firstError(const std::string& log) {
 }  // namespace
 
 fs::path defaultCacheFolder() {
-    if (const char* own = std::getenv("TESSERA_CACHE")) return own;
-    if (const char* cache = std::getenv("XDG_CACHE_HOME")) return fs::path(cache) / "tessera";
-    if (const char* home = std::getenv("HOME")) return fs::path(home) / ".cache" / "tessera";
+    // A variable that is set but empty counts as unset (XDG Base Directory Specification).
+    const auto variable = [](const char* name) {
+        const char* const value = std::getenv(name);
+        return std::string(value == nullptr ? "" : value);
+    };
+    if (const std::string own = variable("TESSERA_CACHE"); !own.empty()) return own;
+    if (const std::string cache = variable("XDG_CACHE_HOME"); !cache.empty()) return fs::path(cache) / "tessera";
+    if (const std::string home = variable("HOME"); !home.empty()) return fs::path(home) / ".cache" / "tessera";
     return {};
 }
 
@@ -91,11 +96,12 @@ cl::Program buildProgram(const OpenDevice& device, const BuildRequest& request) 
     if (cached) {
         if (std::optional<cl::Program> program = load(device, request)) return *program;
     }
-    cl::Program program(device.context, request.source);
+    cl::Program program;
     try {
+        program = cl::Program(device.context, request.source);
         program.build(device.device, request.options.c_str());
     } catch (const cl::Error& error) {
-        const std::string log = program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device);
+        const std::string log = program() != nullptr ? program.getBuildInfo<CL_PROGRAM_BUILD_LOG>(device.device) : error.what();
         throw Error("kernels don't build on device " + device.info.name + " (" + clErrorName(error.err()) + "): " + firstError(log));
     }
     if (cached) store(device, request, program);

@@ -13,8 +13,9 @@ struct DeviceSession {
         : device(openDevice(deviceIndex, lanes)), memory(device), timeline(device), kernels(device, sources, cacheFolder) {}
     DeviceSession(const DeviceSession&) = delete;
     DeviceSession& operator=(const DeviceSession&) = delete;
+    ~DeviceSession() = default;
 
-    // One group for each work-item, and the shape's number of groups.
+    // Launches in groups of the shape's size, the shape's number of groups where none is given.
     void launch(const cl::Kernel& kernel, const std::string& label) { launch(kernel, label, device.shape.groups); }
     void launch(const cl::Kernel& kernel, const std::string& label, std::size_t groups) {
         timeline.launch(kernel, label, groups, static_cast<std::size_t>(device.shape.group));

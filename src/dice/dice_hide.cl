@@ -62,7 +62,7 @@ static inline void snap_grid(const frame_params* frame, grid_domain domain, glob
         vfloat x = p.x * w * frame->raster_scale;
         vfloat y = p.y * w * frame->raster_scale;
         const float guard = GUARD_CELLS * 256.0f;
-        vint good = vle((vfloat)(frame->near_plane), p.z) & vle(fmax(fabs(x), fabs(y)), (vfloat)(guard));
+        vint good = vle((vfloat)(frame->near_plane), p.z) & vle(fabs(x), (vfloat)(guard)) & vle(fabs(y), (vfloat)(guard));
         bad |= ~good & vlt(i + vlane_index(), (vint)(vertices));
         vint fixed_x = film_snap(x + frame->raster_x) - frame->raster_x0;
         vint fixed_y = film_snap(frame->raster_y - y) - frame->raster_y0;

@@ -1,15 +1,12 @@
 #include "film/film.h"
 
 #include <cmath>
+#include <utility>
 
 #include "tessera/error.h"
 
 namespace tessera {
 namespace {
-
-constexpr cl_uint hideAll = 0;  // HIDE_ALL, HIDE_DEPTH, HIDE_ID of film/hide.clh
-constexpr cl_uint hideDepth = 1;
-constexpr cl_uint hideId = 2;
 
 // The kernels' tile arithmetic is exact below this (film/hide.clh).
 constexpr std::uint64_t mostSamples = std::uint64_t{1} << 30;
@@ -46,6 +43,7 @@ FilmLayout layOutFilm(const RenderOptions& options) {
 }
 
 void Film::prepare(const FilmLayout& layout) {
+    const bool wasClean = std::exchange(clean_, false);
     DeviceMemory& memory = session_.memory;
     memory.ensure(referencePatch_, "the samples' patches", layout.samples * 4);
     memory.ensure(referenceU_, "the samples' u", layout.samples * 4);
@@ -53,7 +51,7 @@ void Film::prepare(const FilmLayout& layout) {
     // shade_tiles leaves samples and tiles empty, so they are filled only when new, larger, or after a frame that broke off.
     const bool fresh = memory.ensure(samples_, "the film's samples", layout.samples * 8);
     const bool freshTiles = memory.ensure(touched_, "the film's tiles", (static_cast<std::uint64_t>(layout.tiles) + 3) & ~std::uint64_t{3});
-    if (fresh || freshTiles || !clean_) {
+    if (fresh || freshTiles || !wasClean) {
         session_.timeline.fill(samples_.cl(), 0xffffffffU, samples_.bytes());
         session_.timeline.fill(touched_.cl(), 0, touched_.bytes());
         session_.timeline.finish();
@@ -61,31 +59,17 @@ void Film::prepare(const FilmLayout& layout) {
     clean_ = true;
 }
 
-void Film::enqueueBatch(const frame_params& frame, const split_limits& limits, const SplitQueues& queues, const PatchSet& patches,
-                        bool emulateAtomics) {
+void Film::release() {
+    for (DeviceBuffer* const buffer : {&samples_, &touched_, &referencePatch_, &referenceU_, &referenceV_}) *buffer = DeviceBuffer();
+    clean_ = false;
+}
+
+void Film::enqueueResolve(const frame_params& frame, const split_limits& limits, const SplitQueues& queues) {
     Kernels& kernels = session_.kernels;
-    const auto hide = [&](cl_uint pass) {
-        session_.launch(kernels.with("dice_hide", frame, limits, queues.state(), queues.ready(), patches.eyePoints.cl(), samples_.cl(),
-                                     touched_.cl(), pass),
-                        "dice_hide");
-    };
-    if (emulateAtomics || !session_.device.info.atomics64) {
-        hide(hideDepth);
-        hide(hideId);
-    } else {
-        hide(hideAll);
-    }
     session_.launch(kernels.with("resolve_samples", frame, limits, queues.state(), queues.ready(), samples_.cl(), touched_.cl(),
                                  referencePatch_.cl(), referenceU_.cl(), referenceV_.cl()),
                     "resolve_samples");
     session_.timeline.launch(kernels.with("batch_done", frame, limits, queues.state()), "batch_done", 1, 1);
-}
-
-void Film::enqueueShade(const frame_params& frame, const picture_planes& planes, const ShadeInputs& inputs) {
-    session_.launch(session_.kernels.with("shade_tiles", frame, planes, inputs.patches.eyePoints.cl(), inputs.patches.placed.cl(),
-                                          inputs.objects, inputs.lights, referencePatch_.cl(), referenceU_.cl(), referenceV_.cl(),
-                                          inputs.queues.ready(), samples_.cl(), touched_.cl(), inputs.picture, inputs.queues.state()),
-                    "shade_tiles");
 }
 
 }  // namespace tessera

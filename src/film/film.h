@@ -1,13 +1,11 @@
-// The samples of a frame on the device: layout, hiding a batch into them, and turning them into a picture.
+// The samples of a frame on the device: their layout, and what their ids stand for from batch to batch.
 #pragma once
 
 #include <cstdint>
 
+#include "core/frame_shared.h"
 #include "device/session.h"
-#include "render/frame_shared.h"
-#include "shade/light_shared.h"
 #include "split/queues.h"
-#include "surface/patch_set.h"
 #include "tessera/options.h"
 
 namespace tessera {
@@ -38,20 +36,17 @@ public:
     // Makes room; all samples are background afterwards.
     void prepare(const FilmLayout& layout);
 
-    // Hides and resolves the ranges that are ready, when the device finds that it is time (film/batch.clh), and empties `ready`.
-    void enqueueBatch(const frame_params& frame, const split_limits& limits, const SplitQueues& queues, const PatchSet& patches,
-                      bool emulateAtomics);
+    // Lets go of all buffers.
+    void release();
 
-    // What shade_tiles needs besides the film.
-    struct ShadeInputs {
-        const PatchSet& patches;
-        const cl::Buffer& objects;
-        const cl::Buffer& lights;
-        const cl::Buffer& picture;
-        const SplitQueues& queues;  // whose last batch is still in `ready`
-    };
-    // Shades and filters into `inputs.picture`; the film is background again afterwards.
-    void enqueueShade(const frame_params& frame, const picture_planes& planes, const ShadeInputs& inputs);
+    // Resolves the batch that dice_hide has hidden, unless it is the last, and empties `ready` (resolve.cl).
+    void enqueueResolve(const frame_params& frame, const split_limits& limits, const SplitQueues& queues);
+
+    [[nodiscard]] const cl::Buffer& samples() const { return samples_.cl(); }
+    [[nodiscard]] const cl::Buffer& touched() const { return touched_.cl(); }
+    [[nodiscard]] const cl::Buffer& referencePatch() const { return referencePatch_.cl(); }
+    [[nodiscard]] const cl::Buffer& referenceU() const { return referenceU_.cl(); }
+    [[nodiscard]] const cl::Buffer& referenceV() const { return referenceV_.cl(); }
 
     // The film may hold samples of a frame that broke off: prepare() must clear it.
     void distrust() { clean_ = false; }

@@ -3,8 +3,8 @@
 
 #include <vector>
 
+#include "core/frame_shared.h"
 #include "film/film.h"
-#include "render/frame_shared.h"
 #include "shade/light_shared.h"
 #include "surface/patch_set.h"
 #include "tessera/options.h"

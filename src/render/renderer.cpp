@@ -6,7 +6,8 @@
 
 #include "render/frame_setup.h"
 #include "render/split_loop.h"
-#include "surface/evaluate_shared.h"
+#include "scene/validate.h"
+#include "shade/shade.h"
 #include "tessera/error.h"
 
 namespace tessera {
@@ -54,17 +55,6 @@ PictureLayout layOutPicture(const FilmLayout& film, Aov aovs) {
     return layout;
 }
 
-void checkCamera(const Camera& camera) {
-    const auto bad = [&](const std::string& what) { throw Error("camera '" + camera.name + "': " + what); };
-    if (!(camera.near > 0.0F) || !std::isfinite(camera.near)) bad("near must be above 0");
-    if (!(camera.fovy > 0.0F && camera.fovy < 180.0F)) bad("fovy must be above 0 and below 180 degrees");
-    for (int k = 0; k < 3; ++k) {
-        if (!(std::abs(camera.transform.translation[k]) <= 1.0e9F)) bad("its position is not finite or beyond 1e9");
-    }
-    const double length = glm::length(glm::dquat(camera.transform.rotation));
-    if (!(length > 0.0) || !std::isfinite(length)) bad("its rotation has no length");
-}
-
 }  // namespace
 
 const Plane* Frame::plane(std::string_view planeName) const {
@@ -86,7 +76,7 @@ struct Renderer::Impl {
     SplitResult split(const frame_params& params, const RenderOptions& options, const Progress& progress);
     Frame drawFrame(const Camera& camera, const RenderOptions& options, const Progress& progress);
     Statistics gather(const RenderOptions& options, const SplitResult& result, std::uint32_t pixelsCovered, double frameMs);
-    Frame present(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& picture) const;
+    [[nodiscard]] Frame present(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& picture) const;
 
     DeviceSession session;
     Scene scene;
@@ -111,12 +101,21 @@ void Renderer::Impl::releasePicture() {
     mapped = nullptr;
 }
 
-// Refuses a frame that the device can't hold before anything is allocated.
+// Refuses a frame that the device can't hold before anything is allocated, and lets go of what earlier, larger frames left.
 void Renderer::Impl::planMemory(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& pictureLayout) {
-    std::uint64_t bytes =
-        patches.points.bytes() + patches.placed.bytes() + patches.eyePoints.bytes() + layout.bytes() + pictureLayout.floats * 4;
-    if (options.method == SplitMethod::bounded) bytes += SplitQueues::bytes(boundedLimits(options), boundedStack(options));
-    const std::uint64_t largest = std::max(layout.samples * 8, pictureLayout.floats * 4);
+    const std::uint64_t sceneBytes = patches.points.bytes() + patches.placed.bytes() + patches.eyePoints.bytes();
+    const split_limits limits = boundedLimits(options);
+    const bool bounded = options.method == SplitMethod::bounded;
+    const std::uint64_t queueBytes = bounded ? SplitQueues::bytes(limits, boundedStack(options)) : 0;
+    const std::uint64_t smallBytes = scene.objects.size() * sizeof(placed_object) + (scene.lights.size() + 1) * sizeof(eye_light);
+    const std::uint64_t bytes = sceneBytes + queueBytes + smallBytes + layout.bytes() + pictureLayout.floats * sizeof(float);
+    std::uint64_t largest = std::max(layout.samples * 8, pictureLayout.floats * sizeof(float));
+    if (bounded) largest = std::max(largest, sizeof(range_t) * std::max<std::uint64_t>(boundedStack(options), limits.ready_capacity));
+    if (session.memory.bytes() > bytes) {
+        film.release();
+        queues.release();
+        picture = DeviceBuffer();
+    }
     const DeviceInfo& info = session.device.info;
     if (bytes <= info.globalBytes && largest <= info.maxAllocationBytes && pictureLayout.floats < NO_PLANE) return;
     throw Error("a picture of " + std::to_string(layout.width) + "x" + std::to_string(layout.height) + " with " +
@@ -161,6 +160,7 @@ Frame Renderer::Impl::drawFrame(const Camera& camera, const RenderOptions& optio
     releasePicture();
     const FilmLayout layout = layOutFilm(options);
     const PictureLayout pictureLayout = layOutPicture(layout, options.aovs);
+    session.timeline.restart(options.trace);
     planMemory(options, layout, pictureLayout);
     session.memory.restartPeak();
     reserve(options, layout, pictureLayout);
@@ -170,14 +170,13 @@ Frame Renderer::Impl::drawFrame(const Camera& camera, const RenderOptions& optio
     const std::vector<eye_light> placedLights = placeLights(scene, view, options.headlight);
     params.lights = static_cast<uint>(placedLights.size());
 
-    session.timeline.restart(options.trace);
     film.distrust();
     const auto start = Clock::now();
     placePatches(params, placedObjects);
     session.timeline.write(lights.cl(), placedLights.data(), placedLights.size() * sizeof(eye_light));
     const SplitResult result = split(params, options, progress);
     if (progress) progress("shade", 1.0);
-    film.enqueueShade(params, pictureLayout.planes, {patches, objects.cl(), lights.cl(), picture.cl(), queues});
+    enqueueShade(session, params, pictureLayout.planes, {patches, objects.cl(), lights.cl(), queues}, film, picture.cl());
     mapped = session.timeline.map(picture.cl(), pictureLayout.floats * sizeof(float));
     const double frameMs = millisecondsSince(start);
     film.trust();
@@ -260,7 +259,7 @@ void Renderer::setScene(const Scene& scene) {
 Frame Renderer::render(const Camera& camera, const RenderOptions& options, const Progress& progress) {
     if (!impl_->hasScene) throw Error("no scene is set; call setScene() before render()");
     options.validate();
-    checkCamera(camera);
+    validateCamera(camera, "camera '" + camera.name + "'");
     try {
         return impl_->drawFrame(camera, options, progress);
     } catch (const cl::Error& error) {

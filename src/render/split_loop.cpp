@@ -6,6 +6,7 @@
 #include <limits>
 #include <memory>
 
+#include "dice/dice.h"
 #include "render/frame_setup.h"
 #include "split/host_split.h"
 #include "tessera/error.h"
@@ -69,7 +70,7 @@ private:
 };
 
 void report(const SplitLoop& loop, double fraction) {
-    if (loop.progress) loop.progress("split and dice", fraction);
+    if (loop.progress) loop.progress("split and dice", std::min(fraction, 1.0));
 }
 
 // Ranges whose micropolygons 32 bits can number (film/batch.clh).
@@ -77,11 +78,13 @@ std::uint64_t mostNumbered(std::uint32_t bits) { return (std::uint64_t{1} << (32
 
 void requireIds(const SplitLoop& loop, std::uint64_t ranges) {
     if (ranges <= mostNumbered(loop.frame.rate_bits)) return;
-    throw Error("breadth has " + std::to_string(ranges) + " ranges to dice at once, more than 32 bits can number; use --method bounded");
+    throw Error("breadth has " + std::to_string(ranges) +
+                " ranges at once, more than 32 bits can number when they are diced; use --method bounded");
 }
 
 void hide(const SplitLoop& loop, const split_limits& limits) {
-    loop.film.enqueueBatch(loop.frame, limits, loop.queues, loop.patches, loop.options.emulateAtomics);
+    enqueueDiceHide(loop.session, loop.frame, limits, loop.queues, loop.patches, loop.film, loop.options.emulateAtomics);
+    loop.film.enqueueResolve(loop.frame, limits, loop.queues);
 }
 
 }  // namespace

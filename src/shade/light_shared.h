@@ -2,7 +2,7 @@
 #ifndef TESSERA_SHADE_LIGHT_SHARED_H
 #define TESSERA_SHADE_LIGHT_SHARED_H
 
-#include "device/types_shared.h"
+#include "core/types_shared.h"
 
 TESSERA_SHARED_BEGIN
 
@@ -16,17 +16,6 @@ typedef struct {
     float radiance[3];  // colour times intensity
     uint kind;
 } eye_light;
-
-// Where the planes of a picture begin in its buffer, in floats; NO_PLANE where one is not wanted.
-#define NO_PLANE 0xffffffffu
-
-typedef struct {
-    uint z;
-    uint normal;
-    uint object;
-    uint patch_id;
-    uint uv;
-} picture_planes;
 
 TESSERA_SHARED_END
 

@@ -7,6 +7,7 @@
 #include "device/lanes.clh"
 #include "film/batch.clh"
 #include "film/film.clh"
+#include "film/picture_shared.h"
 #include "shade/lighting.clh"
 #include "surface/patch_eval.clh"
 #include "surface/patch_nets.clh"

@@ -1,7 +1,9 @@
 #include "split/bound_host.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 
 #include "device/lanes_host.h"
 
@@ -36,8 +38,8 @@ Side sideOf(std::uint32_t side) {
 
 int boundOnHost(const frame_params& frame, const float* net, int count, const range_t& range) {
     std::array<float, 60> spread{};  // bound.clh expects 20 places a coordinate
-    for (int c = 0; c < 3; ++c)
-        for (int k = 0; k < count; ++k) spread[static_cast<std::size_t>(c * 20 + k)] = net[c * count + k];
+    const auto points = static_cast<std::size_t>(count);
+    for (std::size_t c = 0; c < 3; ++c) std::copy_n(net + c * points, points, spread.data() + c * 20);
     const Side u = sideOf(range.u_side);
     const Side v = sideOf(range.v_side);
     return kernels::bound_ranges(&frame, spread.data(), 1, u.start, v.start, u.size, v.size, u.level, v.level, count == 20 ? -1 : 0);

@@ -1,7 +1,7 @@
 // The kernels' bounding, compiled as C++: the same decisions to the bit.
 #pragma once
 
-#include "render/frame_shared.h"
+#include "core/frame_shared.h"
 #include "split/range_shared.h"
 
 namespace tessera {

@@ -1,9 +1,13 @@
 #include "split/host_split.h"
 
 #include <algorithm>
+#include <future>
+#include <string>
+#include <system_error>
 #include <thread>
 
 #include "split/bound_host.h"
+#include "tessera/error.h"
 
 namespace tessera {
 namespace {
@@ -28,7 +32,7 @@ HostSplit::HostSplit(const frame_params& frame, std::vector<float> eyePoints, un
 void HostSplit::step(Worker& worker, const range_t& range) const {
     const bool gregory = range.patch_index >= frame_.bezier_patches;
     const std::size_t bezier = std::min(range.patch_index, frame_.bezier_patches);
-    const std::size_t offset = bezier * (3 * BEZIER_POINTS) + (range.patch_index - bezier) * (3 * GREGORY_POINTS);
+    const std::size_t offset = bezier * 3 * BEZIER_POINTS + (range.patch_index - bezier) * 3 * GREGORY_POINTS;
     const int action = boundOnHost(frame_, eyePoints_.data() + offset, gregory ? GREGORY_POINTS : BEZIER_POINTS, range);
     ++worker.counts.processed;
     if (action == ACTION_CULL) {
@@ -63,13 +67,22 @@ void HostSplit::run(Worker& worker, std::size_t limit) const {
     }
 }
 
+void HostSplit::runAll(std::size_t limit) {
+    std::vector<std::future<void>> others;
+    try {
+        for (std::size_t k = 1; k < workers_.size(); ++k) {
+            others.push_back(std::async(std::launch::async, [this, k, limit] { run(workers_[k], limit); }));
+        }
+        run(workers_[0], limit);
+        for (std::future<void>& other : others) other.get();
+    } catch (const std::system_error&) {
+        throw Error("no " + std::to_string(workers_.size()) + " threads can be had for the cpu method; use fewer --threads");
+    }
+}
+
 std::vector<range_t> HostSplit::next(std::size_t limit) {
     const std::size_t share = std::max<std::size_t>(1, limit / workers_.size());
-    {
-        std::vector<std::jthread> threads;
-        for (std::size_t k = 1; k < workers_.size(); ++k) threads.emplace_back([this, k, share] { run(workers_[k], share); });
-        run(workers_[0], share);
-    }
+    runAll(share);
     std::vector<range_t> ranges;
     for (const Worker& worker : workers_) ranges.insert(ranges.end(), worker.ready.begin(), worker.ready.end());
     return ranges;

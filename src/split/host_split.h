@@ -2,12 +2,11 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <vector>
 
-#include "render/frame_shared.h"
+#include "core/frame_shared.h"
 #include "split/range_shared.h"
-#include "surface/patch_set.h"
+#include "surface/patch_shared.h"
 
 namespace tessera {
 
@@ -38,6 +37,7 @@ private:
         HostSplitCounts counts;
     };
     void run(Worker& worker, std::size_t limit) const;
+    void runAll(std::size_t limit);
     void step(Worker& worker, const range_t& range) const;
 
     frame_params frame_;

@@ -40,6 +40,10 @@ void SplitQueues::growStack(std::uint64_t stackRanges, std::uint64_t used) {
     stack_ = std::move(larger);
 }
 
+void SplitQueues::release() {
+    for (DeviceBuffer* const buffer : {&stack_, &batch_, &actions_, &chunkSums_, &ready_, &state_}) *buffer = DeviceBuffer();
+}
+
 void SplitQueues::restart() { session_.timeline.fill(state_.cl(), 0, sizeof(split_state)); }
 
 void SplitQueues::enqueueIteration(const frame_params& frame, const split_limits& limits, const PatchSet& patches) {

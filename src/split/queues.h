@@ -3,8 +3,8 @@
 
 #include <cstdint>
 
+#include "core/frame_shared.h"
 #include "device/session.h"
-#include "render/frame_shared.h"
 #include "split/range_shared.h"
 #include "surface/patch_set.h"
 
@@ -21,6 +21,9 @@ public:
     void reserve(const split_limits& limits, std::uint64_t stackRanges);
     // Makes the stack larger and keeps the `used` ranges on it (the breadth method's growth).
     void growStack(std::uint64_t stackRanges, std::uint64_t used);
+
+    // Lets go of all buffers.
+    void release();
 
     // Empties the queues for a new frame.
     void restart();

@@ -4,13 +4,13 @@
 // Queues:   stack  ranges sorted by level, deepest at the end; at most (K + 1) p. Children go back to its end in order.
 //           batch  the iteration's <= p ranges: fresh patches first (level 0), then the stack's end; keeps the order of levels.
 //           ready  diceable ranges; room for split_limits.ready_capacity >= p. An iteration runs only while p are free.
-// Counters: split_state, on the device. Only split_scan (one group) changes it, so the others may read it freely.
+// Counters: split_state, on the device. Of these kernels only split_scan (one group) changes it, so the others may read it freely.
 // Passes:   split_bound    stack, patches -> batch, actions, chunk_sums (of each SPLIT_CHUNK ranges)
 //           split_scan     chunk_sums -> their exclusive sums; takes the batch off the stack and books its children
 //           split_scatter  batch, actions, chunk_sums -> stack, ready
 // Slots come from scans, never from atomics: the order of ranges, and so the picture, is always the same.
+#include "core/frame_shared.h"
 #include "device/lanes.clh"
-#include "render/frame_shared.h"
 #include "split/range.clh"
 #define NET_SPACE local
 #include "split/bound.clh"

@@ -1,5 +1,6 @@
 // evaluate_points: position and tangents at a list of surface points, with the function that dice and shade use.
-// In:  points (patch, u, v); eye_points as place_patches left them. Out: 9 floats a point: position, du, dv. A work-item LANES points.
+// In:  points (patch, u, v); eye_points as place_patches left them. Out: 9 floats a point: position, du, dv. A work-item a point, in all
+// its lanes.
 #include "device/lanes.clh"
 #include "surface/evaluate_shared.h"
 #include "surface/patch_eval.clh"

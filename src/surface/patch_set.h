@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "device/memory.h"
 #include "device/timeline.h"
@@ -14,13 +13,12 @@ namespace tessera {
 struct PatchSet {
     std::uint32_t patches = 0;  // placed patches of all objects; Bezier first
     std::uint32_t bezierPatches = 0;
-    std::vector<std::uint32_t> firstPatch;  // of each object
-    DeviceBuffer points;                    // object space, file order, 12 bytes a point; meshes shared by objects stand once
-    DeviceBuffer placed;                    // placed_patch
-    DeviceBuffer eyePoints;                 // written by place_patches every frame
+    DeviceBuffer points;     // object space, file order, 12 bytes a point; meshes shared by objects stand once
+    DeviceBuffer placed;     // placed_patch
+    DeviceBuffer eyePoints;  // written by place_patches every frame
 
     [[nodiscard]] static std::uint64_t eyeBytes(std::uint32_t bezierPatches, std::uint32_t gregoryPatches) {
-        return std::uint64_t{bezierPatches} * (3 * 4 * BEZIER_POINTS) + std::uint64_t{gregoryPatches} * (3 * 4 * GREGORY_POINTS);
+        return std::uint64_t{bezierPatches} * 3 * 4 * BEZIER_POINTS + std::uint64_t{gregoryPatches} * 3 * 4 * GREGORY_POINTS;
     }
 };
 

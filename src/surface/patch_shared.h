@@ -2,7 +2,7 @@
 #ifndef TESSERA_SURFACE_PATCH_SHARED_H
 #define TESSERA_SURFACE_PATCH_SHARED_H
 
-#include "device/types_shared.h"
+#include "core/types_shared.h"
 
 TESSERA_SHARED_BEGIN
 

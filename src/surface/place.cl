@@ -2,7 +2,8 @@
 // In:  points (as uploaded, 3 floats each), patches (one placed_patch a patch), objects (this frame's matrices).
 // Out: eye_points: Bezier patches first, 48 floats each, then Gregory patches, 60 floats each, in net order.
 // A work-item a patch; the NDRange covers all patches. Memory: 192 or 240 bytes a patch.
-#include "render/frame_shared.h"
+#include "core/frame_shared.h"
+#include "device/lanes.clh"
 #include "surface/patch_nets.clh"
 
 constant int gregory_net_source[GREGORY_POINTS] = {0, 4, 9, 1, 8, 12, 13, 5, 7, 15, 14, 10, 3, 11, 6, 2, 16, 17, 18, 19};

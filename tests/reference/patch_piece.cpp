@@ -95,9 +95,11 @@ Enclosure enclose(const PatchShape& shape, const Piece& piece) {
     for (std::size_t k = 0; k < 4; ++k) {
         const Tangent tangent = tangentAt(k, middle);
         for (std::size_t p = 0; p < 16; ++p) {
+            const std::size_t column = p % 4;
+            const std::size_t row = p / 4;
             // A linear function's control values are its values at the thirds.
-            const double alongU = width.x * (static_cast<double>(p % 4) / 3.0 - 0.5);
-            const double alongV = width.y * (static_cast<double>(p / 4) / 3.0 - 0.5);
+            const double alongU = width.x * (static_cast<double>(column) / 3.0 - 0.5);
+            const double alongV = width.y * (static_cast<double>(row) / 3.0 - 0.5);
             result.net[p] += (tangent.value + alongU * tangent.du + alongV * tangent.dv) * shape.apart[k];
         }
         const glm::dvec3 size = secondDerivativeBound * glm::abs(shape.apart[k]);

@@ -1,9 +1,9 @@
 // What every station must know of a frame: camera, bounds, film. Passed by value to the kernels.
 // Eye space here: x right, y up, z the DEPTH along the view axis (positive in front of the eye).
-#ifndef TESSERA_RENDER_FRAME_SHARED_H
-#define TESSERA_RENDER_FRAME_SHARED_H
+#ifndef TESSERA_CORE_FRAME_SHARED_H
+#define TESSERA_CORE_FRAME_SHARED_H
 
-#include "device/types_shared.h"
+#include "core/types_shared.h"
 
 TESSERA_SHARED_BEGIN
 

@@ -1,6 +1,6 @@
 // Types for structs that host and kernels share. All members are 4 bytes, so both sides lay them out alike.
-#ifndef TESSERA_DEVICE_TYPES_SHARED_H
-#define TESSERA_DEVICE_TYPES_SHARED_H
+#ifndef TESSERA_CORE_TYPES_SHARED_H
+#define TESSERA_CORE_TYPES_SHARED_H
 
 #ifndef __OPENCL_VERSION__
 #include <cstdint>
