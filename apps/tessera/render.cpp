@@ -122,7 +122,12 @@ void render(const RenderArguments& arguments, const std::string& commandLine) {
         const auto whole = interrupt.files();
         writeOutputs(rendering, loaded.scene, chosen.camera, commandLine, arguments);
     }
-    if (!arguments.quiet) printSummary(summary(rendering, arguments));
+    if (arguments.quiet) return;
+    const Statistics& statistics = rendering.frame.statistics;
+    if (statistics.patches > 0 && statistics.pixelsCovered == 0) {
+        printNote("nothing is in sight; what lies wholly beyond 1000 units is culled, so a large scene must be made smaller");
+    }
+    printSummary(summary(rendering, arguments));
 }
 
 }  // namespace

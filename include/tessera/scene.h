@@ -123,7 +123,8 @@ struct Bounds {
 [[nodiscard]] Camera lookAt(const glm::vec3& eye, const glm::vec3& target, float fovyDegrees);
 
 // A camera that sees all of the scene from a little above, for scenes that have none: y up, in any picture at least as
-// wide as high. Of an empty scene it sees the origin. Throws Error on fovy outside (0, 180).
+// wide as high. Of an empty scene it sees the origin. Scenes of some 1000 units and more are beyond what classical
+// mode draws (it culls at 1000 units). Throws Error on fovy outside (0, 180).
 [[nodiscard]] Camera framingCamera(const Scene& scene, float fovyDegrees);
 
 // Scenes that need no file.
