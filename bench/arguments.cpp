@@ -67,7 +67,7 @@ std::string helpText(const std::string& defaultScenes) {
            "  --cache-dir DIR   Folder of compiled kernels [the user's]\n"
            "  --benchmark_...   Any flag of Google Benchmark, --benchmark_out=FILE.json for one\n"
            "\n"
-           "Pictures are 1280x720 at dice rate 8, one sample a pixel, but for frame16: 4x4 samples.\n"
+           "Pictures are 1280x720, classical mode at dice rate 8, one sample a pixel, but for frame16: 4x4 samples.\n"
            "  split    device time of bounding and splitting (host time for the cpu method)\n"
            "  dice     device time of dicing and hiding\n"
            "  shade    device time of shading; resolve_ms: of turning samples into surface references\n"

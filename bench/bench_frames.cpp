@@ -65,6 +65,7 @@ double measureFrame(const Statistics& s, benchmark::State& state) {
 
 RenderOptions frameOptions(SplitMethod method, int pixelSamples) {
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = 1280;
     options.height = 720;
     options.diceRate = 8;

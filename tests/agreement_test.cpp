@@ -259,6 +259,7 @@ private:
 
 Frame draw(Renderer& renderer, const Camera& camera) {
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = width;
     options.height = height;
     options.pixelSamples = 1;

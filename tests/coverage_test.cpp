@@ -41,6 +41,7 @@ TEST(DepthLimit, DrawsWhatItWouldHaveSplit) {
     const Scene scene = builtinScene("teapot");
     renderer.setScene(scene);
     RenderOptions options = pictureOptions(200, 120, 1);
+    options.mode = DiceMode::classical;
     const Kept deep = draw(renderer, scene.cameras.front(), options);
     const auto area = static_cast<double>(deep.coveredPixels());
     for (const SplitMethod method : {SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded}) {
@@ -133,6 +134,7 @@ TEST(NearPlane, AGroundThroughTheEyeReachesTheBottomOfThePicture) {
         for (const SplitMethod method : {SplitMethod::cpu, SplitMethod::bounded}) {
             SCOPED_TRACE(view.name + ", " + std::string(name(method)));
             RenderOptions options = pictureOptions(160, 120, 1);
+            options.mode = DiceMode::classical;
             options.maxDepth = view.maxDepth;
             options.method = method;
             const Camera camera = groundCamera(view);
@@ -169,6 +171,7 @@ TEST(Cracks, InsideAClosedSurfaceTheBackgroundShowsThroughCracksOnly) {
     for (const int depth : {0, 2, 23}) {
         for (const glm::dvec3& target : targets) {
             RenderOptions options = pictureOptions(160, 120, 1);
+            options.mode = DiceMode::classical;
             options.maxDepth = depth;
             Camera camera = cameraAt({0.3, -0.2, 0.1}, glm::dvec3(0.3, -0.2, 0.1) + target, 90);
             const Kept picture = draw(renderer, camera, options);
@@ -189,6 +192,7 @@ TEST(Cracks, PatchesOfEqualRatesHaveNone) {
     reference::Random random(5);
     for (int k = 0; k < 20; ++k) {
         RenderOptions options = pictureOptions(160, 120, 1);
+        options.mode = DiceMode::classical;
         options.maxDepth = 0;
         options.diceRate = 1 + k;
         const glm::dvec3 eye = random.inCube(0.8);

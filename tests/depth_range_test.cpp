@@ -32,6 +32,7 @@ Scene endlessGround(float reach) {
 
 RenderOptions coarse(int width, int height, bool emulate) {
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = width;
     options.height = height;
     options.pixelSamples = 1;

@@ -31,7 +31,8 @@ public:
 
     [[nodiscard]] std::vector<reference::SurfacePoint> run(const Scene& scene, const Camera& camera,
                                                            const std::vector<evaluate_point>& at) {
-        const RenderOptions options;
+        RenderOptions options;
+        options.mode = DiceMode::classical;
         const PatchSet patches = uploadPatches(scene, session_.memory, session_.timeline);
         const frame_params frame = setUpFrame(camera, options, layOutFilm(options), patches);
         const std::vector<placed_object> placed = placeObjects(scene, eyeFromWorld(camera));
@@ -39,9 +40,7 @@ public:
         const DeviceBuffer points = buffer(at.data(), at.size() * sizeof(evaluate_point));
         const DeviceBuffer out = session_.memory.allocate("results", at.size() * 9 * sizeof(float));
         Timeline& timeline = session_.timeline;
-        timeline.launch(
-            session_.kernels.with("place_patches", frame, patches.points.cl(), patches.placed.cl(), objects.cl(), patches.eyePoints.cl()),
-            "place_patches", 4, 64);
+        enqueuePlace(session_, frame, patches, objects.cl(), patches.eyePoints.cl());
         timeline.launch(
             session_.kernels.with("evaluate_points", frame, patches.eyePoints.cl(), points.cl(), static_cast<cl_uint>(at.size()), out.cl()),
             "evaluate_points", 4, 64);

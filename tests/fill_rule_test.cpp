@@ -102,6 +102,7 @@ protected:
 
     Kept drawn(const Grid& grid, const Scene& scene, int pixelSamples) {
         RenderOptions options = pictureOptions(grid.pictureSide(), grid.pictureSide(), pixelSamples);
+        options.mode = DiceMode::classical;
         options.diceRate = grid.rate;
         options.maxDepth = 0;
         renderer.setScene(scene);
@@ -187,6 +188,7 @@ TEST(FillRule, SplitPatchesCoverTheSameSquare) {
         renderer.setScene(scene);
         for (const int rate : {1, 2, 3, 4, 5, 7, 8, 16, 17, 31, 32}) {
             RenderOptions options = pictureOptions(80, 80, 1);
+            options.mode = DiceMode::classical;
             options.diceRate = rate;
             options.splitBound = 8.5F;
             const Kept picture = draw(renderer, screen.camera(), options);
@@ -239,6 +241,7 @@ TEST(FillRule, ASheetOfSlantedPatchesHasNoGapAndNoOverlap) {
             for (const int rate : {1, 4, 8}) {
                 SCOPED_TRACE(std::to_string(size) + " pixels, rate " + std::to_string(rate) + ", samples " + std::to_string(samples));
                 RenderOptions options = pictureOptions(side, side, samples);
+                options.mode = DiceMode::classical;
                 options.maxDepth = 0;
                 options.diceRate = rate;
                 const auto drawn = [&](bool lastFirst) {

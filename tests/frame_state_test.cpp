@@ -46,6 +46,7 @@ TEST_F(FrameState, StatisticsMatchThePicture) {
     for (const int samples : {1, 4}) {
         for (const SplitMethod method : {SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded}) {
             RenderOptions options = pictureOptions(200, 120, samples);
+            options.mode = DiceMode::classical;
             options.method = method;
             options.diceRate = 5;
             options.batch = 500;
@@ -70,6 +71,7 @@ TEST_F(FrameState, StatisticsMatchThePicture) {
 
 TEST_F(FrameState, AFrameOf1280x720WithOneSampleStaysBelow64MiB) {
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.pixelSamples = 1;
     const Kept picture = drawn(options);
     EXPECT_LT(picture.statistics().deviceBytesPeak, 64 * mebibyte);
@@ -183,6 +185,13 @@ TEST_F(FrameState, OptionsOutOfRangeAreRefusedByName) {
         {"dice rate", [](RenderOptions& o) { o.diceRate = 33; }},
         {"maximum depth", [](RenderOptions& o) { o.maxDepth = -1; }},
         {"maximum depth", [](RenderOptions& o) { o.maxDepth = 25; }},
+        {"shading rate", [=](RenderOptions& o) { o.shadingRate = nan; }},
+        {"shading rate", [](RenderOptions& o) { o.shadingRate = 0.0F; }},
+        {"shading rate", [=](RenderOptions& o) { o.shadingRate = infinite; }},
+        {"grid size", [](RenderOptions& o) { o.gridSize = 0; }},
+        {"grid size", [](RenderOptions& o) { o.gridSize = 12; }},
+        {"grid size", [](RenderOptions& o) { o.gridSize = 64; }},
+        {"mode", [](RenderOptions& o) { o.mode = static_cast<DiceMode>(7); }},
         {"background", [=](RenderOptions& o) { o.background[1] = nan; }},
         {"background", [=](RenderOptions& o) { o.background[0] = infinite; }},
         {"background", [](RenderOptions& o) { o.background[2] = -0.5F; }},
@@ -230,6 +239,7 @@ TEST_F(FrameState, RefusalsTellTheValueAndItsRange) {
 
 TEST_F(FrameState, TheLimitsThemselvesAreTaken) {
     RenderOptions options = pictureOptions(33, 1, 16);
+    options.mode = DiceMode::classical;
     options.batch = 1U << 20U;
     options.splitBound = 65536.0F;
     options.diceRate = 32;
@@ -240,6 +250,13 @@ TEST_F(FrameState, TheLimitsThemselvesAreTaken) {
     EXPECT_EQ(drawn(options).width(), 33);
     options.splitBound = 0.25F;
     options.diceRate = 1;
+    EXPECT_EQ(drawn(options).height(), 1);
+    options.mode = DiceMode::watertight;
+    options.shadingRate = 65536.0F;
+    options.gridSize = 32;
+    EXPECT_EQ(drawn(options).width(), 33);
+    options.shadingRate = 0.0625F;
+    options.gridSize = 1;
     EXPECT_EQ(drawn(options).height(), 1);
 }
 

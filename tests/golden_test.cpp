@@ -58,6 +58,7 @@ TEST_P(Golden, ThePictureLooksAsItDid) {
     Renderer renderer(testSettings());
     renderer.setScene(subject.scene);
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = width;
     options.height = height;
     options.background = {0.18F, 0.2F, 0.24F, 1.0F};

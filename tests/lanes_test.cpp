@@ -31,6 +31,7 @@ std::vector<std::uint32_t> pictureBits(Renderer& renderer, const Camera& camera,
 TEST(Lanes, GiveTheSamePictureToTheBit) {
     const Scene scene = builtinScene("teapot");
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = 200;
     options.height = 113;
     options.aovs = Aov::z | Aov::normal | Aov::object | Aov::patch | Aov::uv;
@@ -55,6 +56,7 @@ TEST(Lanes, GiveTheSamePictureNearAndBeyondTheNearPlane) {
     Camera camera = lookAt({0.0F, 1.0F, 0.0F}, {1.0F, 1.2F, 0.3F}, 70.0F);
     camera.near = 0.5F;
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = 160;
     options.height = 90;
     options.pixelSamples = 2;

@@ -8,6 +8,7 @@
 #include <cstddef>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tessera {
@@ -39,7 +40,33 @@ inline Scene plainScene() {
     return scene;
 }
 
-// Both kinds of patches, all kinds of lights and materials, two objects, names beyond ASCII.
+// Patches of Tessera's own kinds: `count` rational ones with a weight of its own for each point.
+inline Mesh rationalMesh(const std::string& name, int count) {
+    Mesh mesh;
+    mesh.name = name;
+    mesh.kind = PatchKind::rational;
+    for (int i = 0; i < 16 * count; ++i) {
+        mesh.points.emplace_back(static_cast<float>(i % 4) * 0.7F, static_cast<float>(i / 4), static_cast<float>(i % 3) * 0.2F);
+        mesh.weights.push_back(0.25F + static_cast<float>(i % 16) * 0.125F);
+    }
+    return mesh;
+}
+
+// A PN triangle of side 1, flat: points by thirds, then six normals along z.
+inline Mesh pnTriangle(const std::string& name) {
+    Mesh mesh;
+    mesh.name = name;
+    mesh.kind = PatchKind::pn;
+    for (int row = 0; row < 4; ++row) {
+        for (int column = 0; column < 4 - row; ++column) {
+            mesh.points.emplace_back(static_cast<float>(column) / 3.0F, static_cast<float>(row) / 3.0F, 0.0F);
+        }
+    }
+    mesh.points.insert(mesh.points.end(), 6, glm::vec3(0.0F, 0.0F, 1.0F));
+    return mesh;
+}
+
+// All kinds of patches, lights and materials, an object for each mesh, names beyond ASCII.
 inline Scene richScene() {
     Scene scene = plainScene();
     Mesh gregory;
@@ -56,6 +83,13 @@ inline Scene richScene() {
     second.transform.rotation = glm::quat(0.5F, -0.5F, 0.25F, 1.0F);
     second.material = {MaterialKind::matte, 0.3F, 0.9F};
     scene.objects.push_back(second);
+    for (Mesh& mesh : std::vector{rationalMesh("ratio", 2), pnTriangle("tri")}) {
+        Object object = second;
+        object.name = "of " + mesh.name;
+        object.mesh = mesh.name;
+        scene.objects.push_back(object);
+        scene.meshes.push_back(std::move(mesh));
+    }
     for (const LightKind kind : {LightKind::point, LightKind::hemi}) {
         Light light = scene.lights[0];
         light.name = "l\xC3\xA4mp";

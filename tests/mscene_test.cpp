@@ -11,6 +11,7 @@
 #include <iterator>
 #include <random>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace tessera {
@@ -58,6 +59,7 @@ void expectEqual(const Scene& a, const Scene& b) {
         EXPECT_EQ(a.meshes[i].name, b.meshes[i].name);
         EXPECT_EQ(a.meshes[i].kind, b.meshes[i].kind);
         EXPECT_EQ(a.meshes[i].points, b.meshes[i].points);
+        EXPECT_EQ(a.meshes[i].weights, b.meshes[i].weights);
     }
     for (std::size_t i = 0; i < a.objects.size(); ++i) expectEqual(a.objects[i], b.objects[i]);
     for (std::size_t i = 0; i < a.lights.size(); ++i) expectEqual(a.lights[i], b.lights[i]);
@@ -70,6 +72,35 @@ TEST(Mscene, WhatIsWrittenComesBack) {
         EXPECT_EQ(read.name, "file");
         expectEqual(read, scene);
     }
+}
+
+// plainScene() as the writer gave it when meshes had no weights yet.
+constexpr std::string_view beforeWeights =
+    "104c4004110d1f117d2711b12f11ed27510401020000110532310584011f706c6174650000f0abaaaa3e00000fabaa2a3fc0803f0000f0abaaaa3ef0"
+    "abaaaa3e0fabaaaa3effabaa2a3fabaaaa3e00c0803f0fabaaaa3ef0abaa2a3ff0abaaaa3e0fabaa2a3fffabaa2a3fabaa2a3f00c0803f0fabaa2a3f"
+    "c0803ff0abaaaa3e0c803fcfabaa2a3f803fc0803f0c803f51040103184001110922410802111c020773756e11040211080200010c803f0000cc803f"
+    "803f0c803f4104051111124110021125321124020000016111040211080200010c803f00001f706c617465c83f803e083e51040202cf0ad7233c7a44"
+    "0c34421105324104021f66726f6e74110402110802883f3f0c40400c803f0000";
+
+Bytes bytesOf(std::string_view hexadecimal) {
+    Bytes bytes;
+    for (std::size_t i = 0; i < hexadecimal.size(); i += 2) {
+        bytes.push_back(static_cast<std::byte>(std::stoi(std::string(hexadecimal.substr(i, 2)), nullptr, 16)));
+    }
+    return bytes;
+}
+
+TEST(Mscene, FilesFromBeforeTheFormatGrewAreReadAsTheyWere) {
+    std::vector<std::string> warnings;
+    expectEqual(parseMscene(bytesOf(beforeWeights), "file", &warnings), plainScene());
+    EXPECT_TRUE(warnings.empty());
+}
+
+TEST(Mscene, EdgeRecordsAreNotKept) {
+    Scene scene = plainScene();
+    const Bytes bytes = serializeMscene(scene);
+    scene.meshes[0].edges.emplace_back();
+    EXPECT_EQ(serializeMscene(scene), bytes);
 }
 
 TEST(Mscene, ManyPatchesInManySegmentsComeBack) {

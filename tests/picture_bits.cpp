@@ -29,6 +29,7 @@ void print(Renderer& renderer, const Scene& scene, const Camera& camera) {
     for (const int samples : {1, 3, 4}) {
         for (const bool emulated : {false, true}) {
             RenderOptions options = pictureOptions(160, 90, samples);
+            options.mode = DiceMode::classical;
             options.emulateAtomics = emulated;
             options.batch = emulated ? 500 : 40000;
             options.diceRate = samples == 3 ? 5 : 8;

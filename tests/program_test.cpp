@@ -1,8 +1,6 @@
 // The program `tessera` as its users meet it: what it prints and writes, and what it does with bad input.
-#include "formats/mscene.h"
-#include "run_program.h"
+#include "program_fixture.h"
 #include "tessera/options.h"
-#include "tessera/scene.h"
 
 #include <gtest/gtest.h>
 
@@ -12,7 +10,6 @@
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <ostream>
 #include <random>
 #include <thread>
 #include <tuple>
@@ -22,37 +19,6 @@ namespace tessera::test {
 namespace {
 
 using nlohmann::json;
-
-class Program : public testing::Test {
-protected:
-    [[nodiscard]] RunningProgram start(const std::vector<std::string>& arguments, RunningProgram::Environment environment = {}) const {
-        // Kernels of the tests stay out of the user's own cache, and are compiled once for all tests.
-        environment.emplace(environment.begin(), "TESSERA_CACHE", TESSERA_TEST_CACHE);
-        return {TESSERA_PROGRAM_PATH, arguments, folder_.path(), environment};
-    }
-
-    [[nodiscard]] Outcome run(const std::vector<std::string>& arguments, const RunningProgram::Environment& environment = {}) const {
-        return start(arguments, environment).wait();
-    }
-
-    // A small teapot: `more` options on top of it.
-    [[nodiscard]] Outcome renderTeapot(const std::vector<std::string>& more) const {
-        std::vector<std::string> arguments{"render", "teapot", "--size", "96x54", "--pixel-samples", "1"};
-        arguments.insert(arguments.end(), more.begin(), more.end());
-        return run(arguments);
-    }
-
-    [[nodiscard]] std::string file(const std::string& name) const { return readFile(folder_.path() / name); }
-
-    void write(const std::string& name, const Scene& scene) const {
-        const std::vector<std::byte> bytes = serializeMscene(scene);
-        std::string text;
-        for (const std::byte byte : bytes) text.push_back(static_cast<char>(byte));
-        writeFile(folder_.path() / name, text);
-    }
-
-    ScratchFolder folder_;
-};
 
 struct PictureSize {
     std::uint32_t width = 0;
@@ -70,52 +36,38 @@ PictureSize pngSize(const std::string& bytes) {
     return {number(16), number(20)};
 }
 
-void expectSuccess(const Outcome& outcome) {
-    EXPECT_EQ(outcome.exitCode, 0) << outcome.err;
-    EXPECT_EQ(outcome.err.find("error"), std::string::npos) << outcome.err;
-}
-
-void expectOneLineError(const Outcome& outcome, int exitCode) {
-    EXPECT_EQ(outcome.signal, 0);
-    EXPECT_EQ(outcome.exitCode, exitCode);
-    EXPECT_EQ(outcome.errorLines(), 1U) << outcome.err;
-    EXPECT_TRUE(outcome.err.starts_with("tessera: error: ")) << outcome.err;
-    EXPECT_EQ(outcome.out, "");
-}
-
 TEST_F(Program, HelpTellsEveryOptionWithItsDefault) {
     const Outcome outcome = run({"render", "--help"});
     expectSuccess(outcome);
-    for (const std::string option : {"--output",
-                                     "--size",
-                                     "--camera",
-                                     "--look-at",
-                                     "--fov",
-                                     "--method",
-                                     "--batch",
-                                     "--mode",
-                                     "--split-bound",
-                                     "--dice-rate",
-                                     "--max-depth",
-                                     "--background",
-                                     "--pixel-samples",
-                                     "--crop",
-                                     "--aov",
-                                     "--device",
-                                     "--threads",
-                                     "--frames",
-                                     "--stats",
-                                     "--trace",
-                                     "--quiet",
-                                     "--cull-backfaces",
-                                     "--emulate-atomics",
-                                     "--cache-dir"}) {
+    for (const std::string option :
+         {"--output", "--size",        "--camera",         "--look-at",         "--fov",           "--method",
+          "--batch",  "--mode",        "--shading-rate",   "--grid-size",       "--dicing-camera", "--weld-tolerance",
+          "--flat",   "--split-bound", "--dice-rate",      "--max-depth",       "--background",    "--pixel-samples",
+          "--crop",   "--aov",         "--device",         "--threads",         "--frames",        "--stats",
+          "--trace",  "--quiet",       "--cull-backfaces", "--emulate-atomics", "--cache-dir"}) {
         EXPECT_NE(outcome.out.find(option), std::string::npos) << option;
     }
     const RenderOptions defaults;
     EXPECT_NE(outcome.out.find("=" + std::to_string(defaults.width) + "x" + std::to_string(defaults.height)), std::string::npos);
     EXPECT_NE(outcome.out.find("=" + std::to_string(defaults.batch)), std::string::npos);
     EXPECT_NE(outcome.out.find("=" + std::string(name(defaults.method))), std::string::npos);
+    EXPECT_NE(outcome.out.find("=" + std::string(name(defaults.mode))), std::string::npos);
+}
+
+// What stands under a heading of the help: up to the next empty line.
+std::string helpUnder(const std::string& help, const std::string& heading) {
+    const std::size_t from = help.find("\n" + heading + ":\n");
+    return from == std::string::npos ? "" : help.substr(from, help.find("\n\n", from) - from);
+}
+
+TEST_F(Program, HelpTellsWhichOptionsBelongToWhichMode) {
+    const std::string help = run({"render", "--help"}).out;
+    for (const std::string option : {"--shading-rate", "--grid-size", "--dicing-camera"}) {
+        EXPECT_NE(helpUnder(help, "Watertight mode").find(option), std::string::npos) << option;
+    }
+    for (const std::string option : {"--split-bound", "--dice-rate", "--max-depth"}) {
+        EXPECT_NE(helpUnder(help, "Classical mode").find(option), std::string::npos) << option;
+    }
 }
 
 TEST_F(Program, EveryCommandHasHelpAndTheProgramAVersion) {
@@ -176,10 +128,11 @@ TEST_F(Program, WithoutAnyDeviceItSaysWhatToInstall) {
 TEST_F(Program, StatsHoldEveryPromisedField) {
     expectSuccess(renderTeapot({"-o", "k.png", "--frames", "3", "--stats", "stats.json", "--batch", "5000"}));
     const json stats = json::parse(file("stats.json"));
-    for (const std::string field : {"device", "method", "scene", "camera", "version"}) EXPECT_TRUE(stats.at(field).is_string()) << field;
-    for (const std::string field :
-         {"width", "height", "batch", "patches", "ranges_processed", "ranges_diced", "ranges_culled", "stack_peak", "iterations", "batches",
-          "micropolygons", "pixels_covered", "pixel_samples", "split_ms", "frame_ms", "build_ms", "device_bytes_peak"}) {
+    for (const std::string field : {"device", "mode", "method", "scene", "camera", "version"})
+        EXPECT_TRUE(stats.at(field).is_string()) << field;
+    for (const std::string field : {"width", "height", "shading_rate", "grid_size", "batch", "patches", "ranges_processed", "ranges_diced",
+                                    "ranges_culled", "stack_peak", "iterations", "batches", "micropolygons", "pixels_covered",
+                                    "pixel_samples", "split_ms", "frame_ms", "build_ms", "device_bytes_peak"}) {
         EXPECT_TRUE(stats.at(field).is_number()) << field;
     }
     EXPECT_EQ(stats.at("width"), 96);
@@ -290,16 +243,6 @@ TEST_F(Program, InterruptEndsItWithoutFiles) {
     EXPECT_EQ(folder_.fileNames().size(), 0U);
 }
 
-// A command line that must fail: `says` is a part of the message. NAME.mscene files are made by the fixture.
-struct BadInput {
-    std::string name;
-    int exitCode = 1;
-    std::vector<std::string> arguments;
-    std::string says;
-};
-
-void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << bad.name; }
-
 class ProgramRefuses : public Program, public testing::WithParamInterface<BadInput> {
 protected:
     void SetUp() override {
@@ -308,6 +251,7 @@ protected:
         const std::string bytes = file("sound.mscene");
         writeFile(folder_.path() / "truncated.mscene", bytes.substr(0, bytes.size() / 2));
         writeFile(folder_.path() / "empty.mscene", "");
+        writeFile(folder_.path() / "notes.txt", "no scene\n");
         writeFile(folder_.path() / "zeros.mscene", std::string(60000, '\0'));
         std::mt19937 generator(7);
         std::string noise(5000, '\0');
@@ -317,6 +261,11 @@ protected:
         writeDamaged("nan.mscene", [](Scene& scene) { scene.meshes[0].points[5].y = std::numeric_limits<float>::quiet_NaN(); });
         writeDamaged("infinite.mscene", [](Scene& scene) { scene.meshes[0].points[5].y = std::numeric_limits<float>::infinity(); });
         writeDamaged("lists.mscene", [](Scene& scene) { scene.meshes[0].points.pop_back(); });
+        writeDamaged("weightless.mscene", [](Scene& scene) {
+            scene.meshes[0].kind = PatchKind::rational;
+            scene.meshes[0].weights.assign(scene.meshes[0].points.size(), 1.0F);
+            scene.meshes[0].weights[16 + 3] = 0.0F;
+        });
         writeDamaged("meshless.mscene", [](Scene& scene) { scene.objects[0].mesh = "none such"; });
     }
 
@@ -346,12 +295,20 @@ BadInput badOption(const std::string& name, const std::string& option, const std
     return {name, exitCode, {"render", "teapot", "-o", "k.png", option, value}, says};
 }
 
+BadInput badInMode(const std::string& name, const std::string& mode, const std::string& option, const std::string& value,
+                   const std::string& says, int exitCode = 2) {
+    return {name, exitCode, {"render", "teapot", "-o", "k.png", option, value, "--mode", mode}, says};
+}
+
 INSTANTIATE_TEST_SUITE_P(Scenes, ProgramRefuses,
                          testing::Values(badScene("truncated"), badScene("empty"), badScene("zeros"), badScene("random"), badScene("nan"),
                                          badScene("infinite"), badScene("lists"), badScene("meshless"), badScene("absent"),
+                                         BadInput{"weightless", 1, {"info", "weightless.mscene"}, "mesh 'teapot', patch 1, point 3"},
+                                         BadInput{
+                                             "format", 1, {"render", "notes.txt", "-o", "k.png"}, "triangle mesh (OBJ, PLY, glTF, ...)"},
                                          BadInput{"folder", 1, {"render", "folder.png", "-o", "k.png"}, "folder.png"},
                                          BadInput{"infoOfRandom", 1, {"info", "random.mscene"}, "random.mscene"},
-                                         BadInput{"infoOfNothing", 1, {"info", "none such", "--json"}, "teapot"}),
+                                         BadInput{"infoOfNothing", 1, {"info", "none such", "--json"}, "a built-in scene (teapot"}),
                          [](const auto& tested) { return tested.param.name; });
 
 INSTANTIATE_TEST_SUITE_P(
@@ -366,7 +323,25 @@ INSTANTIATE_TEST_SUITE_P(
                     badOption("mode", "--mode", "modern", "classical"), badOption("noSamples", "--pixel-samples", "0", "1 to 16"),
                     badOption("noBatch", "--batch", "0", "1 to 1048576"), badOption("negativeBatch", "--batch", "-1", "--batch"),
                     badOption("diceRate", "--dice-rate", "33", "1 to 32"), badOption("depth", "--max-depth", "25", "0 to 24"),
-                    badOption("nanBound", "--split-bound", "nan", "--split-bound"), badOption("noBound", "--split-bound", "0", "bound"),
+                    badOption("nanBound", "--split-bound", "nan", "--split-bound"),
+                    badInMode("noBound", "classical", "--split-bound", "0", "split bound is 0"),
+                    badInMode("noRate", "watertight", "--shading-rate", "0", "shading rate is 0"),
+                    badInMode("oddGrid", "watertight", "--grid-size", "12", "power of two"),
+                    badOption("largeGrid", "--grid-size", "33", "1 to 32"),
+                    badInMode("dicingCamera", "watertight", "--dicing-camera", "none such",
+                              "--dicing-camera: teapot has no camera 'none such': it has '", 1),
+                    badInMode("boundOfClassical", "watertight", "--split-bound", "4", "--split-bound belongs to classical mode"),
+                    badInMode("rateOfClassical", "watertight", "--dice-rate", "8", "--dice-rate belongs to classical mode"),
+                    badInMode("depthOfClassical", "watertight", "--max-depth", "9", "--max-depth belongs to classical mode"),
+                    badInMode("rateOfWatertight", "classical", "--shading-rate", "1", "--shading-rate belongs to watertight mode"),
+                    badInMode("gridOfWatertight", "classical", "--grid-size", "16", "--grid-size belongs to watertight mode"),
+                    badInMode("cameraOfWatertight", "classical", "--dicing-camera", "camera", "--dicing-camera belongs to watertight mode"),
+                    badOption("tolerance", "--weld-tolerance", "0.2", "0 to 0.1"),
+                    badOption("negativeTolerance", "--weld-tolerance", "-1e-5", "0 to 0.1"),
+                    badOption("nanTolerance", "--weld-tolerance", "nan", "--weld-tolerance"),
+                    BadInput{"toleranceOfInfo", 2, {"info", "teapot", "--weld-tolerance", "1"}, "0 to 0.1"},
+                    BadInput{"flatOfBuiltIn", 2, {"render", "teapot", "-o", "k.png", "--flat"}, "--flat is for triangle meshes"},
+                    BadInput{"flatOfMscene", 2, {"info", "sound.mscene", "--flat"}, "--flat is for triangle meshes"},
                     badOption("flatView", "--fov", "180", "180"), badOption("shortLook", "--look-at", "1,2,3", "6"),
                     badOption("blindLook", "--look-at", "1,1,1,1,1,1", "--look-at"), badOption("emptyCrop", "--crop", "0.5,0.5,0,1", "rop"),
                     badOption("outerCrop", "--crop", "0,2,0,1", "rop"), badOption("background", "--background", "1,0", "3 to 4"),
@@ -375,7 +350,7 @@ INSTANTIATE_TEST_SUITE_P(
                     badOption("sameFile", "--stats", "./k.png", "same file"), badOption("unknown", "--frobnicate", "1", "--frobnicate"),
                     BadInput{"nowhere", 1, {"render", "teapot", "-o", "/none/such/k.png"}, "/none/such"},
                     BadInput{"ontoFolder", 1, {"render", "teapot", "-o", "folder.png"}, "folder.png"},
-                    BadInput{"format", 1, {"render", "teapot", "-o", "k.gif"}, ".exr"},
+                    BadInput{"pictureFormat", 1, {"render", "teapot", "-o", "k.gif"}, ".exr"},
                     BadInput{"noOutput", 2, {"render", "teapot"}, "--output"},
                     BadInput{"toStdout", 2, {"render", "teapot", "-o", "-"}, "standard output"},
                     BadInput{"noScene", 2, {"render", "-o", "k.png"}, "SCENE"}, BadInput{"noCommand", 2, {}, "command"},

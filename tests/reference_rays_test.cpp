@@ -46,8 +46,47 @@ std::optional<double> firstRoot(const Ray& ray, double tMin, double& margin) {
     return std::nullopt;
 }
 
-TEST(ReferenceRays, MeetTheParaboloidWhereAlgebraSays) {
-    const RayCaster caster(sceneOf({paraboloid()}));
+// Of the same graph, two triangles that meet along x + y = 3, the second one turned.
+Mesh paraboloidOfTriangles() {
+    Mesh mesh{"mesh0", PatchKind::pn, {}};
+    for (const bool turned : {false, true}) {
+        for (int j = 0; j < 4; ++j) {
+            for (int i = 0; i + j < 4; ++i) {
+                const int x = turned ? 3 - i : i;
+                const int y = turned ? 3 - j : j;
+                mesh.points.emplace_back(x, y, 1.5 * (x * (x - 1) + y * (y - 1)));
+            }
+        }
+        mesh.points.insert(mesh.points.end(), 6, glm::vec3(0, 0, 1));
+    }
+    return mesh;
+}
+
+// With weights that only move the parameters.
+Mesh weightedParaboloid() {
+    Mesh mesh = paraboloid();
+    mesh.kind = PatchKind::rational;
+    for (std::size_t i = 0; i < 16; ++i) mesh.weights.push_back(std::ldexp(1.0F, static_cast<int>(i % 4) - static_cast<int>(i / 4)));
+    return mesh;
+}
+
+// Where (u, v) of a hit stands under the graph.
+glm::dvec2 under(PatchKind kind, const Hit& hit) {
+    const glm::dvec2 at(hit.u, hit.v);
+    if (kind == PatchKind::pn) return hit.patch == 0 ? 3.0 * at : 3.0 - 3.0 * at;
+    if (kind == PatchKind::bezier) return 3.0 * at;
+    return {3 * 2 * at.x / (1 + at.x), 3 * 0.5 * at.y / (1 - 0.5 * at.y)};
+}
+
+Mesh paraboloidOf(PatchKind kind) {
+    if (kind == PatchKind::bezier) return paraboloid();
+    return kind == PatchKind::pn ? paraboloidOfTriangles() : weightedParaboloid();
+}
+
+class ReferenceParaboloid : public ::testing::TestWithParam<PatchKind> {};
+
+TEST_P(ReferenceParaboloid, IsMetWhereAlgebraSays) {
+    const RayCaster caster(sceneOf({paraboloidOf(GetParam())}));
     Random random(4);
     int hits = 0;
     for (int k = 0; k < 20000; ++k) {
@@ -62,12 +101,47 @@ TEST(ReferenceRays, MeetTheParaboloidWhereAlgebraSays) {
         if (!hit) continue;
         ++hits;
         EXPECT_NEAR(hit->t, *expected, 1e-8);
-        EXPECT_NEAR(3 * hit->u, hit->point.x, 1e-12);
-        EXPECT_NEAR(3 * hit->v, hit->point.y, 1e-12);
+        EXPECT_NEAR(under(GetParam(), *hit).x, hit->point.x, 1e-12);
+        EXPECT_NEAR(under(GetParam(), *hit).y, hit->point.y, 1e-12);
         const glm::dvec3 normal = glm::normalize(glm::dvec3(-2 * hit->point.x, -2 * hit->point.y, 1));
         EXPECT_GT(glm::dot(hit->normal, normal), 1 - 1e-12);
+        const glm::dvec3 shading = GetParam() == PatchKind::pn ? glm::dvec3(0, 0, 1) : normal;
+        EXPECT_GT(glm::dot(hit->shadingNormal, shading), 1 - 1e-12);
     }
     EXPECT_GT(hits, 5000);
+}
+
+INSTANTIATE_TEST_SUITE_P(ReferenceRays, ReferenceParaboloid, ::testing::Values(PatchKind::bezier, PatchKind::rational, PatchKind::pn),
+                         [](const auto& kind) {
+                             if (kind.param == PatchKind::bezier) return "bezier";
+                             return kind.param == PatchKind::pn ? "pn" : "rational";
+                         });
+
+// Through points of the border between two triangles, and beside it by less than rounding can tell.
+TEST(ReferenceRays, AlwaysMeetTheBorderOfTwoTriangles) {
+    const RayCaster caster(sceneOf({paraboloidOfTriangles()}));
+    Random random(6);
+    for (int k = 0; k < 3000; ++k) {
+        const double x = k % 4 == 0 ? 0.375 * (k / 4 % 9) : random.between(0, 3);
+        const double aside = k % 3 == 0 ? 0.0 : random.between(-1, 1) * std::pow(10.0, random.between(-17, -11));
+        const glm::dvec3 target(x, 3 - x + aside, x * x + (3 - x) * (3 - x));
+        const glm::dvec3 origin = target + glm::dvec3(random.between(-3, 3), random.between(-3, 3), 9);
+        EXPECT_TRUE(caster.cast({origin, target - origin}, 0.5, 1.5).has_value()) << x << " " << aside;
+    }
+}
+
+// A triangle's polynomial goes on beyond its third border; the triangle does not.
+TEST(ReferenceRays, MissATriangleBeyondItsThirdBorder) {
+    Mesh one = paraboloidOfTriangles();
+    one.points.resize(16);
+    const RayCaster caster(sceneOf({one}));
+    Random random(7);
+    for (int k = 0; k < 500; ++k) {
+        const double x = random.between(0, 3);
+        const double aside = std::pow(10.0, random.between(-6, -1));
+        EXPECT_TRUE(caster.cast({{x, 3 - x - aside, 30}, {0, 0, -1}}, 0.0).has_value() || x + aside > 3) << x << " " << aside;
+        EXPECT_FALSE(caster.cast({{x, 3 - x + aside, 30}, {0, 0, -1}}, 0.0).has_value()) << x << " " << aside;
+    }
 }
 
 // Rays along a tangent, lifted to either side: over the bowl's inside they meet nothing near, below it they meet it twice.
@@ -119,8 +193,9 @@ std::vector<Sample> samples() {
     const std::array<glm::dvec3, 3> eyes{glm::dvec3(0.5, 1, 6), {4, 0.2, -3}, {0.1, 0.3, 0.8}};  // the last one among the patches
     for (std::size_t k = 0; k < eyes.size(); ++k) {
         const Mesh bezier = bumpyBezierMesh(20 + k, 6);
-        const Mesh rational = parted(asGregory(bumpyBezierMesh(30 + k, 6)), 0.25, 40 + k);
-        result.push_back({sceneOf({bezier, rational}), cameraAt(eyes[k], {0, 0, 0}, k < 2 ? 28 : 60)});
+        const Mesh gregory = parted(asGregory(bumpyBezierMesh(30 + k, 6)), 0.25, 40 + k);
+        const Mesh rational = weighted(bumpyBezierMesh(60 + k, 3), 1.5, 70 + k);
+        result.push_back({sceneOf({bezier, gregory, rational, bumpyPnMesh(80 + k, 4)}), cameraAt(eyes[k], {0, 0, 0}, k < 2 ? 28 : 60)});
     }
     return result;
 }
@@ -142,7 +217,9 @@ TEST(ReferenceRays, HitsProjectBackOntoTheirPixels) {
                 EXPECT_GT(pixel.z, view.near());
                 EXPECT_LE(glm::dot(pixel.normal, view.ray(x + 0.5, y + 0.5).direction), 0.0);
                 const Mesh& mesh = sample.scene.meshes[pixel.hit.object];
-                const glm::dvec3 onPatch = evaluate(mesh.kind, patchPoints(mesh, pixel.hit.patch), pixel.hit.u, pixel.hit.v).position;
+                const std::size_t patch = pixel.hit.patch;
+                const glm::dvec3 onPatch =
+                    evaluate(mesh.kind, patchPoints(mesh, patch), pixel.hit.u, pixel.hit.v, patchWeights(mesh, patch)).position;
                 EXPECT_LE(glm::length(onPatch - pixel.hit.point), 1e-12);
             }
         }
@@ -184,14 +261,19 @@ TEST(ReferenceRays, NearPlaneUncoversWhatIsBehind) {
 
 TEST(ReferenceRays, ObjectsStandWhereTheirTransformsPutThem) {
     // Half a turn about the diagonal x = y, z = 0 exchanges x and y and turns z round; the quaternion is not of unit length.
-    Scene scene = sceneOf({paraboloid()});
-    scene.objects[0].transform.rotation = glm::quat(0.0F, 3.0F, 3.0F, 0.0F);
-    scene.objects[0].transform.translation = {10, 0, 0};
-    const std::optional<Hit> hit = RayCaster(scene).cast({{10 + 1, 2, -30}, {0, 0, 2}}, 0.0);
-    ASSERT_TRUE(hit.has_value());
-    EXPECT_NEAR(hit->t, 12.5, 1e-9);
-    EXPECT_NEAR(hit->u, 2.0 / 3, 1e-9);
-    EXPECT_NEAR(hit->v, 1.0 / 3, 1e-9);
+    for (const PatchKind kind : {PatchKind::bezier, PatchKind::rational, PatchKind::pn}) {
+        Scene scene = sceneOf({paraboloidOf(kind)});
+        scene.objects[0].transform.rotation = glm::quat(0.0F, 3.0F, 3.0F, 0.0F);
+        scene.objects[0].transform.translation = {10, 0, 0};
+        const std::optional<Hit> hit = RayCaster(scene).cast({{10 + 0.5, 2, -30}, {0, 0, 2}}, 0.0);
+        ASSERT_TRUE(hit.has_value());
+        EXPECT_NEAR(hit->t, (30 - 4.25) / 2, 1e-9);
+        EXPECT_NEAR(under(kind, *hit).x, 2.0, 1e-9);
+        EXPECT_NEAR(under(kind, *hit).y, 0.5, 1e-9);
+        const glm::dvec3 normal = glm::normalize(glm::dvec3(-1, -4, -1));
+        EXPECT_GT(glm::dot(hit->normal, normal), 1 - 1e-12);
+        EXPECT_GT(glm::dot(hit->shadingNormal, kind == PatchKind::pn ? glm::dvec3(0, 0, -1) : normal), 1 - 1e-12);
+    }
 }
 
 // Depth at every pixel's centre of a tessellation into triangles.
@@ -205,13 +287,16 @@ public:
     void draw(const Mesh& mesh) {
         for (std::size_t patch = 0; patch < mesh.patchCount(); ++patch) {
             const std::vector<glm::dvec3> points = patchPoints(mesh, patch);
+            const std::vector<double> weights = patchWeights(mesh, patch);
             const auto at = [&](int i, int j) {
-                return view_.project(evaluate(mesh.kind, points, i / static_cast<double>(fine), j / static_cast<double>(fine)).position);
+                const double step = 1.0 / fine;
+                return view_.project(evaluate(mesh.kind, points, i * step, j * step, weights).position);
             };
             for (int j = 0; j < fine; ++j) {
-                for (int i = 0; i < fine; ++i) {
-                    triangle(at(i, j), at(i + 1, j), at(i + 1, j + 1));
-                    triangle(at(i, j), at(i + 1, j + 1), at(i, j + 1));
+                const int end = mesh.kind == PatchKind::pn ? fine - j : fine;
+                for (int i = 0; i < end; ++i) {
+                    triangle(at(i, j), at(i + 1, j), at(i, j + 1));
+                    if (mesh.kind != PatchKind::pn || i + 1 < end) triangle(at(i + 1, j), at(i + 1, j + 1), at(i, j + 1));
                 }
             }
         }
@@ -252,7 +337,8 @@ bool sameAround(const Picture& picture, int x, int y) {
 
 // A triangle leaves the surface by at most an eighth of h^2 (|Suu| + 2 |Suv| + |Svv|), h = 1/96. The net's steps are below 1.1 + 2
 // x 0.55, its second differences below 4 x 0.55 along the axes: second derivatives are below 6 x 2.2 = 13 (and Gregory's add at
-// most 4 x 18 x 0.45): 5e-4 for Bezier, 2e-3 in all. Along the ray that grows by one over the cosine between ray and normal.
+// most 4 x 18 x 0.45): 5e-4 for Bezier, 2e-3 in all, which holds what weights of 2/3 to 3/2 add (measured). Along the ray that grows by one
+// over the cosine between ray and normal.
 TEST(ReferenceRays, AgreeWithADenseTessellation) {
     const double leave = 2e-3;
     for (std::size_t k = 0; k < 2; ++k) {

@@ -24,6 +24,40 @@ std::vector<glm::dvec3> graphPatch(std::size_t m, std::size_t n) {
     return points;
 }
 
+// What an evaluator needs of one patch.
+struct Sample {
+    PatchKind kind;
+    std::vector<glm::dvec3> points;
+    std::vector<double> weights{};
+
+    [[nodiscard]] SurfacePoint at(double u, double v) const { return evaluate(kind, points, u, v, weights); }
+};
+
+Sample sampleOf(const Mesh& mesh) { return {mesh.kind, patchPoints(mesh, 0), patchWeights(mesh, 0)}; }
+
+// One of each kind in turn.
+Sample someSample(std::uint64_t seed) {
+    const Mesh bezier = bumpyBezierMesh(seed, 1);
+    switch (seed % 4) {
+        case 0:
+            return sampleOf(bezier);
+        case 1:
+            return sampleOf(parted(asGregory(bezier), 0.3, seed + 1000));
+        case 2:
+            return sampleOf(weighted(bezier, 4.0, seed + 2000));
+        default:
+            return sampleOf(bumpyPnMesh(seed, 1));
+    }
+}
+
+// Parameters within the domain of `kind`, `inset` from its borders.
+glm::dvec2 someParameters(PatchKind kind, Random& random, double inset) {
+    for (;;) {
+        const glm::dvec2 at(random.between(inset, 1.0 - inset), random.between(inset, 1.0 - inset));
+        if (kind != PatchKind::pn || at.x + at.y <= 1.0 - inset) return at;
+    }
+}
+
 std::vector<glm::dvec3> rationalPatch(std::uint64_t seed) {
     return patchPoints(parted(asGregory(bumpyBezierMesh(seed, 1)), 0.3, seed + 1000), 0);
 }
@@ -49,16 +83,13 @@ TEST(ReferenceSurface, BezierPatchOfAPolynomialIsThatPolynomial) {
 TEST(ReferenceSurface, DerivativesAreTheLimitsOfDifferences) {
     Random random(7);
     const double h = 1e-5;
-    for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        const bool rational = seed % 2 == 1;
-        const PatchKind kind = rational ? PatchKind::gregory : PatchKind::bezier;
-        const std::vector<glm::dvec3> points = rational ? rationalPatch(seed) : patchPoints(bumpyBezierMesh(seed, 1), 0);
+    for (std::uint64_t seed = 0; seed < 40; ++seed) {
+        const Sample sample = someSample(seed);
         for (int k = 0; k < 50; ++k) {
-            const double u = random.between(0.01, 0.99);
-            const double v = random.between(0.01, 0.99);
-            const SurfacePoint s = evaluate(kind, points, u, v);
-            const glm::dvec3 du = (evaluate(kind, points, u + h, v).position - evaluate(kind, points, u - h, v).position) / (2 * h);
-            const glm::dvec3 dv = (evaluate(kind, points, u, v + h).position - evaluate(kind, points, u, v - h).position) / (2 * h);
+            const glm::dvec2 at = someParameters(sample.kind, random, 0.01);
+            const SurfacePoint s = sample.at(at.x, at.y);
+            const glm::dvec3 du = (sample.at(at.x + h, at.y).position - sample.at(at.x - h, at.y).position) / (2 * h);
+            const glm::dvec3 dv = (sample.at(at.x, at.y + h).position - sample.at(at.x, at.y - h).position) / (2 * h);
             // h^2 times a third derivative that grows like one over the distance from a corner, and rounding over h.
             expectNear(s.du, du, 1e-6);
             expectNear(s.dv, dv, 1e-6);
@@ -148,6 +179,140 @@ TEST(ReferenceSurface, BezierPatchAsGregoryIsTheSameSurface) {
     }
 }
 
+TEST(ReferenceSurface, EqualWeightsChangeNothing) {
+    Random random(21);
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        const Sample bezier = sampleOf(bumpyBezierMesh(seed, 1));
+        const Sample rational{PatchKind::rational, bezier.points, std::vector<double>(16, 0.7)};
+        const glm::dvec2 at = someParameters(bezier.kind, random, 0.0);
+        const SurfacePoint a = bezier.at(at.x, at.y);
+        const SurfacePoint b = rational.at(at.x, at.y);
+        expectNear(a.position, b.position, 1e-14);
+        expectNear(a.du, b.du, 1e-13);
+        expectNear(a.dv, b.dv, 1e-13);
+    }
+}
+
+// Multiplying the weights of column i by f^i is the same surface at parameters u' = u / (u + f (1 - u)).
+TEST(ReferenceSurface, WeightsInGeometricProgressionMoveParametersAlone) {
+    Random random(22);
+    const double f = 2.5;
+    const Sample bezier = sampleOf(bumpyBezierMesh(3, 1));
+    Sample rational{PatchKind::rational, bezier.points, {}};
+    for (std::size_t i = 0; i < 16; ++i) rational.weights.push_back(std::pow(f, static_cast<double>(i % 4)));
+    for (int k = 0; k < 50; ++k) {
+        const glm::dvec2 at = someParameters(bezier.kind, random, 0.0);
+        const double moved = f * at.x / (f * at.x + 1.0 - at.x);
+        expectNear(rational.at(at.x, at.y).position, bezier.at(moved, at.y).position, 1e-14);
+    }
+}
+
+// An eighth of the unit sphere: a quarter circle as a rational quadratic, raised to a cubic, both ways; row v = 1 is the pole.
+Sample sphereOctant() {
+    const double c = 1.0 / std::sqrt(2.0);
+    const std::array<double, 4> weight{1, (1 + 2 * c) / 3, (1 + 2 * c) / 3, 1};
+    const std::array<glm::dvec2, 4> weightedArc{glm::dvec2(1, 0), {(1 + 2 * c) / 3, 2 * c / 3}, {2 * c / 3, (1 + 2 * c) / 3}, {0, 1}};
+    Sample sample{PatchKind::rational, {}, {}};
+    for (std::size_t j = 0; j < 4; ++j) {
+        for (std::size_t i = 0; i < 4; ++i) {
+            const glm::dvec2 around = weightedArc[i] / weight[i];
+            const glm::dvec2 up = weightedArc[j] / weight[j];
+            sample.points.emplace_back(up.x * around.x, up.x * around.y, up.y);
+            sample.weights.push_back(weight[i] * weight[j]);
+        }
+    }
+    return sample;
+}
+
+TEST(ReferenceSurface, RationalPatchOfASphereIsTheSphere) {
+    Random random(23);
+    const Sample sphere = sphereOctant();
+    for (int k = 0; k < 100; ++k) {
+        const glm::dvec2 at = someParameters(sphere.kind, random, 0.0);
+        const glm::dvec3 position = sphere.at(at.x, at.y).position;
+        EXPECT_NEAR(glm::length(position), 1.0, 1e-14);
+        expectNear(unitNormal(sphere.kind, sphere.points, at.x, at.y, sphere.weights), position, 1e-9);
+    }
+    expectNear(unitNormal(sphere.kind, sphere.points, 0.3, 1.0, sphere.weights), {0, 0, 1}, 1e-8);
+}
+
+// The cubic triangle (u, v, f): a Bernstein coefficient is f's blossom at the coefficient's corners.
+TEST(ReferenceSurface, PnTriangleOfAPolynomialIsThatPolynomial) {
+    std::vector<glm::dvec3> points;
+    for (int j = 0; j < 4; ++j) {
+        for (int i = 0; i + j < 4; ++i) {
+            // Of u^3: 1 where all three corners are B; of 6 u v w: 1 in the middle; of v^2: the share of pairs of corners that are C and C.
+            points.emplace_back(i / 3.0, j / 3.0, (i == 3 ? 1.0 : 0.0) + (i == 1 && j == 1 ? 1.0 : 0.0) + j * (j - 1) / 6.0);
+        }
+    }
+    Random random(24);
+    for (int n = 0; n < 50; ++n) {
+        const glm::dvec2 at = someParameters(PatchKind::pn, random, 0.0);
+        const double u = at.x, v = at.y, w = 1 - u - v;
+        const SurfacePoint s = evaluate(PatchKind::pn, points, u, v);
+        expectNear(s.position, {u, v, u * u * u + 6 * u * v * w + v * v}, 1e-14);
+        expectNear(s.du, {1, 0, 3 * u * u + 6 * v * w - 6 * u * v}, 1e-14);
+        expectNear(s.dv, {0, 1, 6 * u * w - 6 * u * v + 2 * v}, 1e-14);
+        expectNear(unitNormal(PatchKind::pn, points, u, v), glm::normalize(glm::cross(s.du, s.dv)), 1e-14);
+    }
+}
+
+TEST(ReferenceSurface, PnTriangleHasItsPointsAndBordersWhereTheHeaderSays) {
+    const Sample pn = sampleOf(bumpyPnMesh(9, 1));
+    expectNear(pn.at(0, 0).position, pn.points[0], 0.0);
+    expectNear(pn.at(1, 0).position, pn.points[3], 0.0);
+    expectNear(pn.at(0, 1).position, pn.points[9], 0.0);
+    const std::array<std::array<std::size_t, 4>, 3> border{{{0, 1, 2, 3}, {3, 6, 8, 9}, {0, 4, 7, 9}}};
+    for (const double t : {0.1, 0.5, 0.8}) {
+        const std::array<SurfacePoint, 3> there{pn.at(t, 0), pn.at(1 - t, t), pn.at(0, t)};
+        const Bernstein b = bernstein(t);
+        for (std::size_t side = 0; side < 3; ++side) {
+            glm::dvec3 curve(0.0);
+            for (std::size_t i = 0; i < 4; ++i) curve += b.value[i] * pn.points[border[side][i]];
+            expectNear(there[side].position, curve, 1e-14);
+        }
+    }
+}
+
+TEST(ReferenceSurface, PnTriangleShadesWithItsQuadraticNormals) {
+    const Sample pn = sampleOf(bumpyPnMesh(10, 1));
+    const auto normal = [&](double u, double v) { return shadingNormal(pn.kind, pn.points, u, v); };
+    expectNear(normal(0, 0), glm::normalize(pn.points[10]), 1e-15);
+    expectNear(normal(1, 0), glm::normalize(pn.points[12]), 1e-15);
+    expectNear(normal(0, 1), glm::normalize(pn.points[15]), 1e-15);
+    // Vlachos et al. give the products of two parameters the weight 1, not 2.
+    expectNear(normal(0.5, 0), glm::normalize(pn.points[10] + pn.points[11] + pn.points[12]), 1e-15);
+    expectNear(normal(0.5, 0.5), glm::normalize(pn.points[12] + pn.points[14] + pn.points[15]), 1e-15);
+    expectNear(normal(0, 0.5), glm::normalize(pn.points[10] + pn.points[13] + pn.points[15]), 1e-15);
+    std::vector<glm::dvec3> bare = pn.points;
+    std::fill(bare.begin() + 10, bare.end(), glm::dvec3(0.0));
+    expectNear(shadingNormal(pn.kind, bare, 0.3, 0.3), unitNormal(pn.kind, pn.points, 0.3, 0.3), 0.0);
+}
+
+TEST(ReferenceSurface, PnTriangleAsABicubicNetIsTheSameSurface) {
+    Random random(25);
+    for (std::uint64_t seed = 0; seed < 10; ++seed) {
+        const Sample pn = sampleOf(bumpyPnMesh(seed, 1));
+        const Net net = pnNet(pn.points);
+        for (int k = 0; k < 20; ++k) {
+            const glm::dvec2 at = someParameters(pn.kind, random, 0.0);
+            const SurfacePoint a = pn.at(at.x, at.y);
+            const SurfacePoint b = evaluate(PatchKind::bezier, net, at.x, at.y);
+            expectNear(a.position, b.position, 1e-13);
+            expectNear(a.du, b.du, 1e-13);
+            expectNear(a.dv, b.dv, 1e-13);
+        }
+    }
+}
+
+// A triangle two of whose corners are one: the border between them is a point.
+TEST(ReferenceSurface, PnTriangleHasANormalAtACollapsedBorder) {
+    std::vector<glm::dvec3> points;
+    for (int j = 0; j < 4; ++j)
+        for (int i = 0; i + j < 4; ++i) points.emplace_back(j == 0 ? 0.0 : i / 3.0, j / 3.0, 0.0);
+    expectNear(unitNormal(PatchKind::pn, points, 0.4, 0.0), {0, 0, 1}, 1e-8);
+}
+
 // A quarter of a bowl around its lowest point: row v = 0 is that point four times.
 std::vector<glm::dvec3> bowlPatch() {
     const std::array<glm::dvec2, 4> arc{glm::dvec2(1, 0), {1, 0.5522847498}, {0.5522847498, 1}, {0, 1}};
@@ -194,22 +359,38 @@ void expectWithin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& pa
     EXPECT_LE(std::max({excess.x, excess.y, excess.z}), 1e-13) << what;
 }
 
-// The surface stays within the pads of the patch over the enclosure's net, and so of that net's hull.
+// The denominator of a rational patch and its derivatives, as x coordinates; 1 of any other.
+SurfacePoint weightOf(const Sample& sample, const glm::dvec2& at) {
+    if (sample.weights.empty()) return {glm::dvec3(1, 0, 0), {}, {}};
+    std::vector<glm::dvec3> weights;
+    for (const double weight : sample.weights) weights.emplace_back(weight, 0, 0);
+    return evaluate(PatchKind::bezier, weights, at.x, at.y);
+}
+
+// The product with a weight, by the product rule.
+SurfacePoint times(const SurfacePoint& s, const SurfacePoint& weight) {
+    const double w = weight.position.x;
+    return {w * s.position, w * s.du + weight.du.x * s.position, w * s.dv + weight.dv.x * s.position};
+}
+
+// The surface, of rational patches times its weight, stays within the pads of the patch over the enclosure's net, and so of that net's
+// hull.
 TEST(ReferencePiece, EnclosesTheSurfaceAndItsDerivatives) {
     Random random(99);
     for (std::uint64_t seed = 0; seed < 200; ++seed) {
-        const PatchKind kind = seed % 4 == 0 ? PatchKind::bezier : PatchKind::gregory;
-        const std::vector<glm::dvec3> gregory = seed % 4 == 1 ? loneBlend() : rationalPatch(seed);
-        const PatchShape shape = makeShape(kind, kind == PatchKind::bezier ? patchPoints(bumpyBezierMesh(seed, 1), 0) : gregory);
+        const Sample sample = seed % 8 == 1 ? Sample{PatchKind::gregory, loneBlend()} : someSample(seed);
+        const PatchShape shape = makeShape(sample.kind, sample.points, sample.weights);
         const Piece piece = somePiece(shape, random, static_cast<int>(seed % 12), seed % 3 == 0);
         const Enclosure enclosure = enclose(shape, piece);
+        const Box box = boxOf(enclosure);
         const glm::dvec2 width = piece.rectangle.width();
         for (int k = 0; k < 100; ++k) {
             const bool corner = k < 20;
             const glm::dvec2 local(corner ? k % 2 : random.unit(), corner ? k / 2 % 2 : random.unit());
             const glm::dvec2 at = piece.rectangle.lower + width * local;
-            const SurfacePoint s = evaluate(kind, shape.points, at.x, at.y);
             const SurfacePoint n = evaluate(PatchKind::bezier, enclosure.net, local.x, local.y);
+            const SurfacePoint s = times(sample.at(at.x, at.y), weightOf(sample, at));
+            expectWithin(sample.at(at.x, at.y).position, 0.5 * (box.lower + box.upper), 0.5 * (box.upper - box.lower), "box");
             expectWithin(s.position, n.position, enclosure.pad, "position");
             expectWithin(width.x * s.du, n.du, enclosure.slopePadU, "du");
             expectWithin(width.y * s.dv, n.dv, enclosure.slopePadV, "dv");

@@ -1,21 +1,25 @@
-// Scenes: look-ups, transforms, bounds, the checks of Scene::validate, made cameras and the built-in scenes.
+// Scenes: look-ups, transforms, bounds, the checks of Scene::validate and made cameras.
 #include "tessera/scene.h"
 #include "scene/text.h"
 #include "scene/validate.h"
+#include "seen.h"
 #include "tessera/error.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace tessera {
 namespace {
+
+using test::placedPoints;
+using test::seenBy;
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
 constexpr float kInfinity = std::numeric_limits<float>::infinity();
@@ -44,6 +48,31 @@ Scene smallScene() {
     return scene;
 }
 
+// The same with a rational mesh of two patches, a pn triangle, and edge records on the former.
+Scene mixedScene() {
+    Scene scene = smallScene();
+    scene.meshes[0].kind = PatchKind::rational;
+    scene.meshes[0].weights.assign(32, 1.0F);
+    EdgeRecord edge;
+    edge.side = 2;
+    scene.meshes[0].edges.push_back(edge);
+    edge.patch = 1;
+    edge.side = 0;
+    edge.level = 2;
+    edge.index = 3;
+    edge.cuts = 8;
+    scene.meshes[0].edges.push_back(edge);
+    Mesh triangle;
+    triangle.name = "t";
+    triangle.kind = PatchKind::pn;
+    triangle.points.assign(16, glm::vec3(1.0F));
+    edge = EdgeRecord{};
+    edge.side = 3;
+    triangle.edges.push_back(edge);
+    scene.meshes.push_back(triangle);
+    return scene;
+}
+
 // What validate says about `scene`; empty where it is content.
 std::string complaint(const Scene& scene) {
     try {
@@ -52,23 +81,6 @@ std::string complaint(const Scene& scene) {
     } catch (const Error& error) {
         return error.what();
     }
-}
-
-// A point as `camera` sees it: x and y over half the picture's height, z the distance along the view axis.
-glm::dvec3 seenBy(const Camera& camera, const glm::dvec3& point) {
-    const glm::dvec3 eye = glm::transpose(rotationMatrix(camera.transform)) * (point - glm::dvec3(camera.transform.translation));
-    const double scale = 1.0 / (-eye.z * std::tan(glm::radians(static_cast<double>(camera.fovy)) * 0.5));
-    return {eye.x * scale, eye.y * scale, -eye.z};
-}
-
-std::vector<glm::dvec3> placedPoints(const Scene& scene) {
-    std::vector<glm::dvec3> points;
-    for (const Object& object : scene.objects) {
-        for (const glm::vec3& point : scene.findMesh(object.mesh)->points) {
-            points.emplace_back(matrix(object.transform) * glm::dvec4(glm::dvec3(point), 1.0));
-        }
-    }
-    return points;
 }
 
 TEST(Transform, RotatesThenTranslatesWhateverTheQuaternionsLength) {
@@ -118,8 +130,19 @@ struct Break {
     std::vector<std::string> said;  // parts of the message
 };
 
+void expectComplaints(const Scene& sound, const std::vector<Break>& breaks) {
+    ASSERT_EQ(complaint(sound), "");
+    for (const Break& one : breaks) {
+        Scene scene = sound;
+        one.apply(scene);
+        const std::string message = complaint(scene);
+        EXPECT_EQ(message.rfind("small: ", 0), 0U) << one.name << ": " << message;
+        EXPECT_EQ(message.find('\n'), std::string::npos) << one.name;
+        for (const std::string& part : one.said) EXPECT_NE(message.find(part), std::string::npos) << one.name << ": " << message;
+    }
+}
+
 TEST(Validate, NamesWhatIsWrongAndWhere) {
-    ASSERT_EQ(complaint(smallScene()), "");
     const std::vector<Break> breaks{
         {"nan", [](Scene& s) { s.meshes[0].points[19].y = kNan; }, {"mesh 'm'", "patch 1", "point 3", "nan"}},
         {"infinity", [](Scene& s) { s.meshes[0].points[0].z = -kInfinity; }, {"mesh 'm'", "patch 0", "point 0", "-inf"}},
@@ -146,14 +169,49 @@ TEST(Validate, NamesWhatIsWrongAndWhere) {
         {"fovy 180", [](Scene& s) { s.cameras[0].fovy = 180.0F; }, {"camera 'c'", "field of view of 180"}},
         {"camera place", [](Scene& s) { s.cameras[0].transform.translation.z = kNan; }, {"camera 'c'", "translation"}},
     };
-    for (const Break& one : breaks) {
-        Scene scene = smallScene();
-        one.apply(scene);
-        const std::string message = complaint(scene);
-        EXPECT_EQ(message.rfind("small: ", 0), 0U) << one.name << ": " << message;
-        EXPECT_EQ(message.find('\n'), std::string::npos) << one.name;
-        for (const std::string& part : one.said) EXPECT_NE(message.find(part), std::string::npos) << one.name << ": " << message;
-    }
+    expectComplaints(smallScene(), breaks);
+}
+
+TEST(Validate, NamesWeightsThatAreWrong) {
+    const std::vector<Break> breaks{
+        {"zero", [](Scene& s) { s.meshes[0].weights[19] = 0.0F; }, {"mesh 'm'", "patch 1", "point 3", "weight 0 "}},
+        {"below zero", [](Scene& s) { s.meshes[0].weights[0] = -1.0F; }, {"mesh 'm'", "patch 0", "point 0", "weight -1"}},
+        {"nan", [](Scene& s) { s.meshes[0].weights[31] = kNan; }, {"mesh 'm'", "patch 1", "point 15", "weight nan"}},
+        {"infinite", [](Scene& s) { s.meshes[0].weights[1] = kInfinity; }, {"mesh 'm'", "patch 0", "point 1", "weight inf"}},
+        {"small", [](Scene& s) { s.meshes[0].weights[1] = 9e-7F; }, {"mesh 'm'", "patch 0", "point 1", "1e-6"}},
+        {"great", [](Scene& s) { s.meshes[0].weights[1] = 1.1e6F; }, {"mesh 'm'", "patch 0", "point 1", "1e6"}},
+        {"missing", [](Scene& s) { s.meshes[0].weights.pop_back(); }, {"mesh 'm'", "31 weights", "32 points"}},
+        {"out of place", [](Scene& s) { s.meshes[0].kind = PatchKind::bezier; }, {"mesh 'm'", "weights", "bezier"}},
+        {"of a pn", [](Scene& s) { s.meshes[1].weights.assign(16, 1.0F); }, {"mesh 't'", "weights", "pn"}},
+    };
+    expectComplaints(mixedScene(), breaks);
+}
+
+TEST(Validate, TellsNormalsOfTrianglesFromPoints) {
+    const std::vector<Break> breaks{
+        {"point", [](Scene& s) { s.meshes[1].points[9].x = 2e9F; }, {"mesh 't'", "patch 0", "point 9", "1e9"}},
+        {"normal", [](Scene& s) { s.meshes[1].points[10].x = kNan; }, {"mesh 't'", "patch 0", "point 10", "normal"}},
+    };
+    expectComplaints(mixedScene(), breaks);
+    Scene scene = mixedScene();
+    scene.meshes[1].points[15].x = 1e30F;
+    EXPECT_EQ(complaint(scene), "");
+}
+
+TEST(Validate, NamesEdgeRecordsThatBreakTheirRules) {
+    const std::vector<Break> breaks{
+        {"patch", [](Scene& s) { s.meshes[0].edges[1].patch = 2; }, {"mesh 'm'", "edge record of patch 2, side 0", "2 patches"}},
+        {"side", [](Scene& s) { s.meshes[0].edges[1].side = 4; }, {"mesh 'm'", "patch 1, side 4", "rational"}},
+        {"pn side", [](Scene& s) { s.meshes[1].edges[0].side = 2; }, {"mesh 't'", "patch 0, side 2", "pn"}},
+        {"point", [](Scene& s) { s.meshes[0].edges[0].points[3].z = kNan; }, {"mesh 'm'", "patch 0, side 2", "nan"}},
+        {"weight", [](Scene& s) { s.meshes[0].edges[0].weights[2] = 0.0F; }, {"mesh 'm'", "patch 0, side 2", "weight 0 "}},
+        {"cuts", [](Scene& s) { s.meshes[0].edges[1].cuts = 9; }, {"mesh 'm'", "patch 1, side 0", "cut 9 times"}},
+        {"level", [](Scene& s) { s.meshes[0].edges[1].cuts = 1; }, {"mesh 'm'", "patch 1, side 0", "level 2"}},
+        {"index", [](Scene& s) { s.meshes[0].edges[1].index = 4; }, {"mesh 'm'", "patch 1, side 0", "part 4 of 4"}},
+        {"order", [](Scene& s) { std::swap(s.meshes[0].edges[0], s.meshes[0].edges[1]); }, {"mesh 'm'", "patch 0, side 2", "order"}},
+        {"twin", [](Scene& s) { s.meshes[0].edges.push_back(s.meshes[0].edges[1]); }, {"mesh 'm'", "patch 1, side 0", "two"}},
+    };
+    expectComplaints(mixedScene(), breaks);
 }
 
 TEST(Validate, AcceptsTheLimitsThemselves) {
@@ -261,62 +319,6 @@ TEST(FramingCamera, IsValidForAnEmptyScene) {
     EXPECT_LT(glm::length(glm::dvec2(seenBy(camera, glm::dvec3(0.0)))), 1e-6);
     EXPECT_NO_THROW(validateCamera(framingCamera(Scene{}, std::numeric_limits<float>::denorm_min()), "framing"));
     EXPECT_THROW(static_cast<void>(framingCamera(Scene{}, 0.0F)), Error);
-}
-
-TEST(BuiltinScene, TeapotIsWholeValidAndInThePicture) {
-    EXPECT_TRUE(isBuiltinScene("teapot"));
-    const Scene scene = builtinScene("teapot");
-    EXPECT_EQ(complaint(scene), "");
-    EXPECT_EQ(scene.placedPatchCount(), 32U);
-    const Camera* camera = scene.findCamera("camera");
-    ASSERT_NE(camera, nullptr);
-    const Bounds bounds = worldBounds(scene);
-    EXPECT_NEAR(bounds.lower.y, 0.0, 1e-5);  // stands on the ground, y up
-    EXPECT_NEAR(bounds.upper.y, 3.15, 1e-5);
-    for (const glm::dvec3& point : placedPoints(scene)) {
-        const glm::dvec3 seen = seenBy(*camera, point);
-        EXPECT_LT(std::abs(seen.x), 0.98 * 1280.0 / 720.0);
-        EXPECT_LT(std::abs(seen.y), 0.98);
-        EXPECT_GT(seen.z, camera->near);
-    }
-}
-
-// The enclosed volume, by the divergence theorem on a fine grid: positive only where du x dv points outwards.
-TEST(BuiltinScene, TeapotsBodyFacesOutwards) {
-    const Scene scene = builtinScene("teapot");
-    const std::vector<glm::vec3>& points = scene.meshes[0].points;
-    const auto at = [&](std::size_t patch, double u, double v) {
-        const auto bernstein = [](double t) {
-            return std::array<double, 4>{(1 - t) * (1 - t) * (1 - t), 3 * t * (1 - t) * (1 - t), 3 * t * t * (1 - t), t * t * t};
-        };
-        glm::dvec3 sum(0.0);
-        for (std::size_t i = 0; i < 16; ++i) sum += bernstein(u)[i % 4] * bernstein(v)[i / 4] * glm::dvec3(points[patch * 16 + i]);
-        return sum;
-    };
-    double volume = 0.0;
-    constexpr int kSteps = 16;
-    for (std::size_t patch = 0; patch < 32; ++patch) {
-        for (int i = 0; i < kSteps * kSteps; ++i) {
-            const double u = (i % kSteps + 0.5) / kSteps;
-            const double v = std::floor(static_cast<double>(i) / kSteps) / kSteps + 0.5 / kSteps;
-            const double h = 0.5 / kSteps;
-            const glm::dvec3 normal = glm::cross(at(patch, u + h, v) - at(patch, u - h, v), at(patch, u, v + h) - at(patch, u, v - h));
-            volume += glm::dot(at(patch, u, v), normal) / 3.0;
-        }
-    }
-    EXPECT_GT(volume, 20.0);
-    EXPECT_LT(volume, 40.0);
-}
-
-TEST(BuiltinScene, UnknownNameIsAnErrorThatNamesTheKnownOnes) {
-    EXPECT_FALSE(isBuiltinScene("teacup"));
-    try {
-        static_cast<void>(builtinScene("teacup"));
-        FAIL();
-    } catch (const Error& error) {
-        EXPECT_NE(std::string(error.what()).find("'teacup'"), std::string::npos);
-        EXPECT_NE(std::string(error.what()).find("teapot"), std::string::npos);
-    }
 }
 
 }  // namespace

@@ -41,6 +41,7 @@ protected:
 
     [[nodiscard]] Statistics draw(SplitMethod method, std::uint32_t batch) {
         RenderOptions options;
+        options.mode = DiceMode::classical;
         options.width = 1280;
         options.height = 720;
         options.pixelSamples = 1;

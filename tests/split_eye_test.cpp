@@ -88,6 +88,7 @@ private:
 
 RenderOptions optionsOf(int depth) {
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = width;
     options.height = height;
     options.maxDepth = depth;

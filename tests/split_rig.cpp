@@ -51,10 +51,8 @@ void SplitRig::place(const Scene& scene, const Camera& camera, const RenderOptio
     const std::size_t bytes = placed.size() * sizeof(placed_object);
     const DeviceBuffer objects = session_.memory.allocate("the objects", bytes);
     session_.timeline.write(objects.cl(), placed.data(), bytes);
-    session_.timeline.launch(
-        session_.kernels.with("place_patches", frame_, patches_.points.cl(), patches_.placed.cl(), objects.cl(), patches_.eyePoints.cl()),
-        "place_patches", 4, 64);
-    eyePoints_.resize(PatchSet::eyeBytes(patches_.bezierPatches, patches_.patches - patches_.bezierPatches) / sizeof(float));
+    enqueuePlace(session_, frame_, patches_, objects.cl(), patches_.eyePoints.cl());
+    eyePoints_.resize(patches_.eyeBytes() / sizeof(float));
     session_.timeline.read(patches_.eyePoints.cl(), eyePoints_.data(), eyePoints_.size() * sizeof(float));
 }
 

@@ -62,6 +62,7 @@ Trial randomTrial(Random& random, const std::vector<std::uint32_t>& batches) {
 
 RenderOptions optionsOf(const Plan& plan) {
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.maxDepth = plan.depth;
     options.batch = plan.batch;
     return options;
@@ -254,7 +255,7 @@ Breakage freshAbove() {
 // Fresh patches are pushed on the others while there are any: half of a batch is fresh though the stack could fill it.
 Breakage hastyFeed() {
     return {"hasty feed",
-            {{splitKernels, "uint taken = min(limits.batch, state->stack_count);",
+            {{"split/plan.clh", "uint taken = min(limits.batch, state->stack_count);",
               "uint hasty = min(limits.batch / 2u, left); uint taken = min(limits.batch - hasty, state->stack_count);"}}};
 }
 

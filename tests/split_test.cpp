@@ -47,6 +47,7 @@ std::vector<Sight> sights() {
 
 RenderOptions smallPicture(int maxDepth = 23) {
     RenderOptions options;
+    options.mode = DiceMode::classical;
     options.width = 160;
     options.height = 90;
     options.pixelSamples = 1;
@@ -167,7 +168,7 @@ Found findBreadth(SplitRig& rig) {
 }
 
 Found findOnHost(const SplitRig& rig, unsigned threads, std::size_t limit) {
-    HostSplit split(rig.frame(), rig.eyePoints(), threads);
+    HostSplit<ClassicalRule> split(ClassicalRule(rig.frame(), rig.eyePoints()), threads);
     Found found;
     for (std::vector<range_t> some = split.next(limit); !some.empty(); some = split.next(limit))
         found.diced.insert(found.diced.end(), some.begin(), some.end());
@@ -258,7 +259,7 @@ TEST(SplitQueues, BytesOfTheBoundedMethodDoNotDependOnThePatches) {
     for (const std::uint32_t batch : {300U, 1000U}) {
         options.batch = batch;
         const std::uint64_t few = boundedBytes(rig, 1, options);
-        EXPECT_LE(few, SplitQueues::bytes(boundedLimits(options), boundedStack(options)));
+        EXPECT_LE(few, SplitQueues::bytes(boundedLimits(options), boundedStack(options), DiceMode::classical));
         EXPECT_EQ(boundedBytes(rig, 20 * std::size_t{batch}, options), few);
     }
 }

@@ -7,7 +7,7 @@ set -euo pipefail
 wanted=(
     cmake ninja-build g++ pkgconf
     ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd libglm-dev
-    capnproto libcapnp-dev libopenimageio-dev libcli11-dev nlohmann-json3-dev
+    capnproto libcapnp-dev libopenimageio-dev libassimp-dev libdraco-dev zlib1g-dev libcli11-dev nlohmann-json3-dev
 )
 case "${1-}" in
     "") ;;

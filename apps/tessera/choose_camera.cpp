@@ -20,19 +20,20 @@ std::string cameraList(const Scene& scene) {
     return list;
 }
 
-const Camera& namedCamera(const Scene& scene, const std::string& name) {
+}  // namespace
+
+const Camera& namedCamera(const Scene& scene, const std::string& name, const std::string& option) {
     const Camera* camera = scene.findCamera(name);
     if (camera != nullptr) return *camera;
-    if (scene.cameras.empty()) throw Error(scene.name + " has no camera '" + name + "', nor any other: leave out --camera");
-    throw Error(scene.name + " has no camera '" + name + "': it has " + cameraList(scene));
+    const std::string missing = option + ": " + scene.name + " has no camera '" + name + "'";
+    if (scene.cameras.empty()) throw Error(missing + ", nor any other: leave out " + option);
+    throw Error(missing + ": it has " + cameraList(scene));
 }
-
-}  // namespace
 
 ChosenCamera chooseCamera(const Scene& scene, const CameraArguments& arguments) {
     ChosenCamera chosen;
     if (!arguments.name.empty()) {
-        chosen.camera = namedCamera(scene, arguments.name);
+        chosen.camera = namedCamera(scene, arguments.name, "--camera");
     } else if (!scene.cameras.empty()) {
         chosen.camera = scene.cameras.front();
     } else {

@@ -19,6 +19,10 @@ struct ChosenCamera {
     std::string note;  // what the user may not expect, or empty
 };
 
+// The camera of that name, which lives as long as the scene. Throws Error, which names `option` and lists the scene's cameras, where
+// there is none.
+[[nodiscard]] const Camera& namedCamera(const Scene& scene, const std::string& name, const std::string& option);
+
 // The camera of that name, the first one, or one that frames the scene where it has none. Throws Error, which lists
 // the scene's cameras, on an unknown name.
 [[nodiscard]] ChosenCamera chooseCamera(const Scene& scene, const CameraArguments& arguments);

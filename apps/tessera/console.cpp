@@ -37,11 +37,21 @@ void printResult(std::string_view text) {
     if (!std::cout) throw Error("cannot write to standard output: check where it goes and the space left there");
 }
 
-std::string shortest(float value) {
+namespace {
+
+template <typename... How>
+std::string digitsOf(How... how) {
     std::array<char, 64> digits{};
-    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), value);
+    const auto result = std::to_chars(digits.data(), digits.data() + digits.size(), how...);
     return {digits.data(), result.ptr};
 }
+
+}  // namespace
+
+std::string shortest(float value) { return digitsOf(value); }
+std::string shortest(double value) { return digitsOf(value); }
+
+std::string about(double value) { return digitsOf(value, std::chars_format::general, 3); }
 
 std::string fixed(double value, int decimals) {
     // Room for the largest double written out in full.

@@ -24,6 +24,10 @@ void printResult(std::string_view text);
 
 // The shortest decimal text that reads back as `value`: "0.3", "8", "1e+20".
 [[nodiscard]] std::string shortest(float value);
+[[nodiscard]] std::string shortest(double value);
+
+// `value` to three digits: "1.25e-06".
+[[nodiscard]] std::string about(double value);
 
 // `value` with `decimals` digits after the point.
 [[nodiscard]] std::string fixed(double value, int decimals);

@@ -49,6 +49,21 @@ std::map<std::string, std::uint64_t> placedPatches(const Scene& scene) {
     return patches;
 }
 
+// Lengths in scene units.
+Json edgesJson(const WeldReport& weld) {
+    return {{"tolerance", weld.tolerance},
+            {"edges", weld.edges},
+            {"matched", weld.matchedEdges},
+            {"boundary", weld.boundaryEdges},
+            {"degenerate", weld.degenerateEdges},
+            {"collapsed", weld.collapsedEdges},
+            {"snapped_points", weld.snappedPoints},
+            {"records", weld.recordedEdges},
+            {"shared_by_three_or_more", weld.overusedEdges},
+            {"largest_gap", weld.largestGap},
+            {"nearest_miss", weld.nearestMiss > 0.0 ? Json(weld.nearestMiss) : Json()}};
+}
+
 Json objectJson(const Scene& scene, const Object& object) {
     const Mesh* mesh = scene.findMesh(object.mesh);
     Json json = {{"name", object.name},
@@ -69,6 +84,7 @@ std::string infoJson(const LoadedScene& loaded) {
     Json json = {{"scene", scene.name}, {"patches", scene.placedPatchCount()}, {"patch_types", Json::object()}};
     for (const auto& [kind, count] : placedPatches(scene)) json["patch_types"][kind] = count;
     json["bounds"] = bounds.empty() ? Json() : Json{{"lower", jsonOf(bounds.lower)}, {"upper", jsonOf(bounds.upper)}};
+    json["edges"] = edgesJson(loaded.weld);
     for (const auto* list : {"cameras", "lights", "objects", "meshes"}) json[list] = Json::array();
     for (const Camera& camera : scene.cameras) {
         json["cameras"].push_back({{"name", camera.name},
@@ -116,7 +132,24 @@ std::string objectText(const Scene& scene, const Object& object) {
            "\n";
 }
 
-std::string infoText(const Scene& scene) {
+std::string edgesText(const WeldReport& weld) {
+    std::string text = "edges   " + std::to_string(weld.edges) + ": " + std::to_string(weld.matchedEdges) + " matched by a neighbour's, " +
+                       std::to_string(weld.boundaryEdges) + " boundary, without one";
+    if (weld.overusedEdges > 0) text += "; " + std::to_string(weld.overusedEdges) + " shared by three patches or more";
+    text += "\n        " + std::to_string(weld.degenerateEdges) + " more are degenerate, one point; " +
+            std::to_string(weld.collapsedEdges) + " of them collapsed here, being shorter than the tolerance\n";
+    text += "weld    within " + about(weld.tolerance) + " units: " + counted(weld.snappedPoints, "control point", "control points") +
+            " moved, largest gap " + about(weld.largestGap) + " units; " + counted(weld.recordedEdges, "edge record", "edge records") +
+            " for neighbours of another kind or level\n";
+    if (weld.nearestMiss > 0.0) {
+        text += "        nearest miss " + about(weld.nearestMiss) +
+                " units: least distance of boundary edges with the same ends; a crack in the data, if it is small\n";
+    }
+    return text;
+}
+
+std::string infoText(const LoadedScene& loaded) {
+    const Scene& scene = loaded.scene;
     std::string text = "scene   " + oneLine(scene.name) + "\npatches " + std::to_string(scene.placedPatchCount());
     std::string separator = ": ";
     for (const auto& [kind, count] : placedPatches(scene)) {
@@ -125,6 +158,7 @@ std::string infoText(const Scene& scene) {
     }
     const Bounds bounds = worldBounds(scene);
     text += "\nbounds  " + (bounds.empty() ? std::string("empty") : textOf(bounds.lower) + " to " + textOf(bounds.upper)) + "\n";
+    text += edgesText(loaded.weld);
     for (const Camera& camera : scene.cameras) text += cameraText(camera);
     if (scene.cameras.empty()) text += "camera  none: a picture frames the whole scene\n";
     for (const Light& light : scene.lights) text += lightText(light);
@@ -133,26 +167,27 @@ std::string infoText(const Scene& scene) {
     return text;
 }
 
-void showInfo(const std::string& sceneName, bool asJson) {
-    const LoadedScene loaded = loadScene(sceneName);
+void showInfo(const SceneArguments& arguments, bool asJson) {
+    const LoadedScene loaded = loadScene(arguments);
     if (asJson) {
         printResult(infoJson(loaded));
         return;
     }
     for (const std::string& warning : loaded.warnings) printNote(warning);
-    printResult(infoText(loaded.scene));
+    printResult(infoText(loaded));
 }
 
 }  // namespace
 
 Command addInfoCommand(CLI::App& app) {
     struct Arguments {
-        std::string scene;
+        SceneArguments scene;
         bool json = false;
     };
-    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds: cameras, lights, objects, patches, bounds");
+    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds, and how its patches' edges meet");
+    command->get_formatter()->column_width(34);
     const auto arguments = std::make_shared<Arguments>();
-    command->add_option("SCENE", arguments->scene, "An .mscene file or a built-in scene: " + builtinSceneList())->type_name("")->required();
+    addSceneArguments(*command, arguments->scene, "Options");
     command->add_flag("--json", arguments->json, "Print JSON instead of text");
     return {command, [arguments] { showInfo(arguments->scene, arguments->json); }};
 }

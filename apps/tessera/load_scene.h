@@ -1,7 +1,9 @@
-// Finds the scene that a command line names.
+// Finds the scene that a command line names, and makes it clean.
 #pragma once
 
+#include "scene_arguments.h"
 #include "tessera/scene.h"
+#include "tessera/weld.h"
 
 #include <string>
 #include <vector>
@@ -10,13 +12,16 @@ namespace tessera::program {
 
 struct LoadedScene {
     Scene scene;
+    WeldReport weld;                    // what was found where patches meet
     std::vector<std::string> warnings;  // a line each: oddities that still leave a scene
 };
 
-// The built-in scene `nameOrFile`, else the .mscene file of that path. Throws Error: neither exists, or a bad file.
-[[nodiscard]] LoadedScene loadScene(const std::string& nameOrFile);
+// The built-in scene of that name, else the file of that path: an .mscene file, or a triangle mesh of a format that readMeshFile()
+// knows; welded. Throws Error: neither exists, a format that is not known, or a bad file; UsageError on --flat for what is no triangle
+// mesh.
+[[nodiscard]] LoadedScene loadScene(const SceneArguments& arguments);
 
-// The built-in scenes' names, for help texts: "teapot, sphere".
-[[nodiscard]] std::string builtinSceneList();
+// What loadScene() takes, for help texts and errors: "an .mscene file, a triangle mesh (...) or a built-in scene (teapot, ...)".
+[[nodiscard]] std::string sceneFormats();
 
 }  // namespace tessera::program

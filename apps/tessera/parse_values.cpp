@@ -1,11 +1,15 @@
 // Strict readers for sizes, lists of numbers and lists of names on the command line.
 #include "parse_values.h"
 
+#include "console.h"
 #include "tessera/error.h"
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <system_error>
 
 namespace tessera::program {
@@ -29,6 +33,7 @@ constexpr std::array<NamedAov, 8> kAovs{{
 }};
 
 constexpr std::array kMethods{SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded};
+constexpr std::array kModes{DiceMode::watertight, DiceMode::classical};
 
 std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
@@ -55,6 +60,28 @@ int parseSide(std::string_view digits, std::string_view whole) {
     return side;
 }
 
+template <typename Real>
+Real parseFinite(std::string_view text) {
+    Real value = 0;
+    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
+    if (result.ec == std::errc::invalid_argument || result.ptr != text.data() + text.size()) {
+        throw Error(inQuotes(text) + " is no number");
+    }
+    if (result.ec == std::errc() && std::isfinite(value)) return value;
+    throw Error(inQuotes(text) + " is no finite number of " + std::to_string(8 * sizeof(Real)) + "-bit floating point");
+}
+
+// That of `all` whose name is `text`; `kind` is what an error calls it.
+template <typename Named, std::size_t count>
+Named parseNamed(std::string_view text, std::string_view kind, const std::array<Named, count>& all) {
+    std::string names;
+    for (const Named one : all) {
+        if (name(one) == text) return one;
+        names += (names.empty() ? "" : ", ") + std::string(name(one));
+    }
+    throw Error("unknown " + std::string(kind) + " " + inQuotes(text) + ": known are " + names);
+}
+
 Aov parseAov(std::string_view wanted) {
     for (const NamedAov& known : kAovs) {
         if (known.name == wanted) return known.aov;
@@ -70,13 +97,11 @@ Size parseSize(std::string_view text) {
     return {parseSide(text.substr(0, cross), text), parseSide(text.substr(cross + 1), text)};
 }
 
-float parseNumber(std::string_view text) {
-    float value = 0.0F;
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec == std::errc::invalid_argument || result.ptr != text.data() + text.size()) {
-        throw Error(inQuotes(text) + " is no number");
-    }
-    if (result.ec != std::errc() || !std::isfinite(value)) throw Error(inQuotes(text) + " is no finite number of 32-bit floating point");
+float parseNumber(std::string_view text) { return parseFinite<float>(text); }
+
+double parseFraction(std::string_view text, double most) {
+    const auto value = parseFinite<double>(text);
+    if (value < 0.0 || value > most) throw Error(inQuotes(text) + " is out of range: 0 to " + shortest(most));
     return value;
 }
 
@@ -103,18 +128,9 @@ std::vector<float> parseNumbers(std::string_view text, std::size_t least, std::s
     return numbers;
 }
 
-SplitMethod parseMethod(std::string_view text) {
-    for (const SplitMethod method : kMethods) {
-        if (name(method) == text) return method;
-    }
-    throw Error("unknown method " + inQuotes(text) + ": known are " + methodNames());
-}
+SplitMethod parseMethod(std::string_view text) { return parseNamed(text, "method", kMethods); }
 
-std::string methodNames() {
-    std::string names;
-    for (const SplitMethod method : kMethods) names += (names.empty() ? "" : ", ") + std::string(name(method));
-    return names;
-}
+DiceMode parseMode(std::string_view text) { return parseNamed(text, "mode", kModes); }
 
 Aov parseAovs(std::string_view text) {
     Aov aovs = Aov::none;
@@ -126,6 +142,12 @@ std::string aovNames() {
     std::string names;
     for (const NamedAov& known : kAovs) names += (names.empty() ? "" : ", ") + std::string(known.name);
     return names;
+}
+
+std::string lowerEnding(const std::string& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+    return ending;
 }
 
 }  // namespace tessera::program

@@ -23,6 +23,9 @@ constexpr int kLargestSide = 65536;  // pixels, as RenderOptions allows
 // A finite number and nothing else: "-1.5", "1e3".
 [[nodiscard]] float parseNumber(std::string_view text);
 
+// A finite number from 0 to `most` and nothing else: "1e-5".
+[[nodiscard]] double parseFraction(std::string_view text, double most);
+
 // A whole number from `least` to `most` and nothing else: "40000".
 [[nodiscard]] long long parseWhole(std::string_view text, long long least, long long most);
 
@@ -32,13 +35,16 @@ constexpr int kLargestSide = 65536;  // pixels, as RenderOptions allows
 // "cpu", "breadth" or "bounded".
 [[nodiscard]] SplitMethod parseMethod(std::string_view text);
 
-// The names that parseMethod() knows: "cpu, breadth, bounded".
-[[nodiscard]] std::string methodNames();
+// "watertight" or "classical".
+[[nodiscard]] DiceMode parseMode(std::string_view text);
 
 // Names with commas between: "Z,N", "all". Errors list the names that are known.
 [[nodiscard]] Aov parseAovs(std::string_view text);
 
 // The names that parseAovs() knows: "Z, N, object.id, ...".
 [[nodiscard]] std::string aovNames();
+
+// The ending of a file's name in small letters: ".exr" of "a/B.EXR"; empty where there is none.
+[[nodiscard]] std::string lowerEnding(const std::string& path);
 
 }  // namespace tessera::program

@@ -4,6 +4,7 @@
 #include "console.h"
 
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string_view>
 
@@ -50,12 +51,29 @@ std::string listText(const std::array<float, 4>& values) {
 
 }  // namespace
 
+// The mode, and the options that it looks at.
+std::map<std::string, std::string> modeOptions(const RenderOptions& options) {
+    std::map<std::string, std::string> list{{"mode", std::string(name(options.mode))}};
+    if (options.mode == DiceMode::watertight) {
+        list["shading-rate"] = shortest(options.shadingRate);
+        list["grid-size"] = std::to_string(options.gridSize);
+        if (options.dicingCamera) list["dicing-camera"] = options.dicingCamera->name;
+    } else {
+        list["split-bound"] = shortest(options.splitBound);
+        list["dice-rate"] = std::to_string(options.diceRate);
+        list["max-depth"] = std::to_string(options.maxDepth);
+    }
+    return list;
+}
+
 ImageMetadata pictureMetadata(const std::string& commandLine, const Camera& camera, const RenderArguments& arguments) {
     const RenderOptions& options = arguments.options;
     ImageMetadata metadata;
     metadata.command = commandLine;
     metadata.options = {
-        {"scene", arguments.scene},
+        {"scene", arguments.scene.scene},
+        {"weld-tolerance", shortest(arguments.scene.weldTolerance)},
+        {"flat", arguments.scene.flat ? "true" : "false"},
         {"camera", camera.name},
         {"fov", shortest(camera.fovy)},
         {"size", std::to_string(options.width) + "x" + std::to_string(options.height)},
@@ -63,16 +81,13 @@ ImageMetadata pictureMetadata(const std::string& commandLine, const Camera& came
         {"pixel-samples", std::to_string(options.pixelSamples)},
         {"background", listText(options.background)},
         {"aov", aovText(options.aovs)},
-        {"mode", arguments.mode},
         {"method", std::string(name(options.method))},
         {"batch", std::to_string(options.batch)},
-        {"split-bound", shortest(options.splitBound)},
-        {"dice-rate", std::to_string(options.diceRate)},
-        {"max-depth", std::to_string(options.maxDepth)},
         {"cull-backfaces", options.cullBackfaces ? "true" : "false"},
         {"headlight", options.headlight ? "true" : "false"},
         {"emulate-atomics", options.emulateAtomics ? "true" : "false"},
     };
+    metadata.options.merge(modeOptions(options));
     const glm::dmat4 worldToCamera = glm::inverse(matrix(camera.transform));
     const double aspect = static_cast<double>(options.width) / static_cast<double>(options.height);
     metadata.worldToCamera = glm::mat4(worldToCamera);

@@ -6,6 +6,7 @@
 #include "formats/output_file.h"
 #include "interrupt.h"
 #include "load_scene.h"
+#include "parse_values.h"
 #include "picture_metadata.h"
 #include "progress_line.h"
 #include "render_arguments.h"
@@ -14,9 +15,7 @@
 #include "trace_json.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cstddef>
-#include <filesystem>
 #include <memory>
 #include <span>
 #include <string_view>
@@ -66,17 +65,11 @@ Rendering renderFrames(Renderer& renderer, const Camera& camera, const RenderArg
     return rendering;
 }
 
-bool isExr(const std::string& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-    return ending == ".exr";
-}
-
 void printNotes(const LoadedScene& loaded, const ChosenCamera& chosen, const RenderArguments& arguments) {
     if (arguments.quiet) return;
     for (const std::string& warning : loaded.warnings) printNote(warning);
     if (!chosen.note.empty()) printNote(chosen.note);
-    if (arguments.options.aovs != Aov::none && !isExr(arguments.output)) {
+    if (arguments.options.aovs != Aov::none && lowerEnding(arguments.output) != ".exr") {
         printNote(arguments.output + " will hold the colours alone: --aov needs an .exr file");
     }
 }
@@ -108,12 +101,18 @@ void writeOutputs(const Rendering& rendering, const Scene& scene, const Camera& 
     }
 }
 
-void render(const RenderArguments& arguments, const std::string& commandLine) {
+std::string nothingInSight(DiceMode mode) {
+    if (mode == DiceMode::watertight) return "nothing is in sight; choose a camera by --camera or --look-at";
+    return "nothing is in sight; what lies wholly beyond 1000 units is culled, so a large scene must be made smaller";
+}
+
+void render(RenderArguments arguments, const std::string& commandLine) {
     checkRenderArguments(arguments);
     Interrupt interrupt;
     checkOutputs(arguments, interrupt);
     const LoadedScene loaded = loadScene(arguments.scene);
     const ChosenCamera chosen = chooseCamera(loaded.scene, arguments.camera);
+    if (arguments.dicingCamera) arguments.options.dicingCamera = namedCamera(loaded.scene, *arguments.dicingCamera, "--dicing-camera");
     Renderer renderer(arguments.settings);
     renderer.setScene(loaded.scene);
     printNotes(loaded, chosen, arguments);
@@ -124,9 +123,7 @@ void render(const RenderArguments& arguments, const std::string& commandLine) {
     }
     if (arguments.quiet) return;
     const Statistics& statistics = rendering.frame.statistics;
-    if (statistics.patches > 0 && statistics.pixelsCovered == 0) {
-        printNote("nothing is in sight; what lies wholly beyond 1000 units is culled, so a large scene must be made smaller");
-    }
+    if (statistics.patches > 0 && statistics.pixelsCovered == 0) printNote(nothingInSight(arguments.options.mode));
     printSummary(summary(rendering, arguments));
 }
 

@@ -1,47 +1,21 @@
 // The command line of `tessera render`: every option with its unit, range and default.
 #include "render_arguments.h"
 
+#include "add_options.h"
 #include "commands.h"
 #include "console.h"
-#include "load_scene.h"
+#include "mode_options.h"
 #include "parse_values.h"
 #include "tessera/error.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace tessera::program {
 
 namespace {
-
-// An option whose text `read` turns into a value; what `read` refuses is a usage error.
-CLI::Option* addParsed(CLI::App& app, const std::string& optionName, std::function<void(const std::string&)> read,
-                       const std::string& description) {
-    const auto callback = [optionName, read = std::move(read)](const std::string& text) {
-        try {
-            read(text);
-        } catch (const Error& error) {
-            throw CLI::ValidationError(optionName, error.what());
-        }
-    };
-    return app.add_option_function<std::string>(optionName, callback, description);
-}
-
-struct Range {
-    long long least = 0;
-    long long most = 0;
-};
-
-// A whole number; the default shown is what `value` holds.
-template <typename Number>
-CLI::Option* addWhole(CLI::App& app, const std::string& optionName, Number& value, Range range, const std::string& description) {
-    const auto read = [&value, range](const std::string& text) { value = static_cast<Number>(parseWhole(text, range.least, range.most)); };
-    return addParsed(app, optionName, read, description)->default_str(std::to_string(value));
-}
 
 template <std::size_t Count>
 std::string listText(const std::array<float, Count>& values) {
@@ -101,9 +75,7 @@ void addPictureOptions(CLI::App& app, RenderArguments& arguments) {
         app, "--aov", [&options](const std::string& text) { options.aovs = parseAovs(text); },
         "More outputs for .exr, with commas between:\n" + aovNames())
         ->type_name("LIST");
-    for (CLI::Option* option : app.get_options()) {
-        if (option->get_group() == "Options") option->group("Picture");
-    }
+    groupRest(app, "Picture");
 }
 
 void addCameraOptions(CLI::App& app, CameraArguments& camera) {
@@ -125,30 +97,17 @@ void addCameraOptions(CLI::App& app, CameraArguments& camera) {
 
 void addSplitOptions(CLI::App& app, RenderArguments& arguments) {
     RenderOptions& options = arguments.options;
+    addModeOptions(app, arguments);
     addParsed(
         app, "--method", [&options](const std::string& text) { options.method = parseMethod(text); },
         "How ranges are split: cpu (on the host, the reference), breadth (all at\nonce), bounded (memory fixed beforehand)")
         ->type_name("NAME")
         ->default_str(std::string(name(options.method)));
-    app.add_option("--mode", arguments.mode, "What is decided on: classical (halves at fixed rates, as Micropolis did)")
-        ->type_name("NAME")
-        ->check(CLI::IsMember({"classical"}).description(""))
-        ->capture_default_str();
     addWhole(app, "--batch", options.batch, {1, 1 << 20}, "Ranges bounded at a time, 1 to 1048576: less takes less device memory")
         ->type_name("P");
-    addParsed(
-        app, "--split-bound", [&options](const std::string& text) { options.splitBound = parseNumber(text); },
-        "Pixels, 0.25 to 65536: a range no longer than this either way is diced")
-        ->type_name("PX")
-        ->default_str(shortest(options.splitBound));
-    addWhole(app, "--dice-rate", options.diceRate, {1, 32}, "Micropolygons along each side of a range, 1 to 32")->type_name("N");
-    addWhole(app, "--max-depth", options.maxDepth, {0, 24}, "Splits after which a range is diced whatever its size, 0 to 24")
-        ->type_name("K");
     app.add_flag("--cull-backfaces", options.cullBackfaces, "Drop micropolygons that face away (normal: du x dv)");
     app.add_flag("--headlight", options.headlight, "Light from the camera instead of the scene's lights");
-    for (CLI::Option* option : app.get_options()) {
-        if (option->get_group() == "Options") option->group("Splitting and dicing");
-    }
+    groupRest(app, "Splitting and dicing");
 }
 
 void addDeviceOptions(CLI::App& app, RenderArguments& arguments) {
@@ -166,9 +125,7 @@ void addDeviceOptions(CLI::App& app, RenderArguments& arguments) {
         ->type_name("DIR");
     app.add_flag_callback(
         "--no-cache", [&arguments] { arguments.settings.cacheKernels = false; }, "Neither read nor write compiled kernels");
-    for (CLI::Option* option : app.get_options()) {
-        if (option->get_group() == "Options") option->group("Device");
-    }
+    groupRest(app, "Device");
 }
 
 void addReportOptions(CLI::App& app, RenderArguments& arguments) {
@@ -199,7 +156,7 @@ void addRenderOptions(CLI::App& app, RenderArguments& arguments) {
     app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
     // Taken away and put back at the end: it is to stand last.
     app.set_help_flag();
-    app.add_option("SCENE", arguments.scene, "An .mscene file or a built-in scene: " + builtinSceneList())->type_name("")->required();
+    addSceneArguments(app, arguments.scene, "Scene");
     addPictureOptions(app, arguments);
     addCameraOptions(app, arguments.camera);
     addSplitOptions(app, arguments);
@@ -215,6 +172,7 @@ void checkRenderArguments(const RenderArguments& arguments) {
         sameFile(arguments.stats, arguments.trace)) {
         throw UsageError("--output, --stats and --trace name the same file: give each its own");
     }
+    checkModeOptions(arguments);
     try {
         arguments.options.validate();
     } catch (const Error& error) {

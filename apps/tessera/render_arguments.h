@@ -2,23 +2,28 @@
 #pragma once
 
 #include "choose_camera.h"
+#include "scene_arguments.h"
 #include "tessera/options.h"
 #include "tessera/renderer.h"
 
 #include <CLI/CLI.hpp>
+#include <optional>
 #include <string>
+#include <utility>
+#include <vector>
 
 namespace tessera::program {
 
 struct RenderArguments {
-    std::string scene;   // a built-in scene's name or a file
+    SceneArguments scene;
     std::string output;  // the picture's file
-    std::string mode = "classical";
-    std::string stats;  // statistics file, "-" for stdout, empty for none
-    std::string trace;  // trace file, empty for none
-    int frames = 1;     // how often the frame is rendered; the median is reported
+    std::string stats;   // statistics file, "-" for stdout, empty for none
+    std::string trace;   // trace file, empty for none
+    int frames = 1;      // how often the frame is rendered; the median is reported
     bool quiet = false;
     CameraArguments camera;
+    std::optional<std::string> dicingCamera;                    // name of the scene's camera that rates are measured by
+    std::vector<std::pair<std::string, DiceMode>> modeOptions;  // those given that only one mode looks at
     RendererSettings settings;
     RenderOptions options;
 };

@@ -1,6 +1,7 @@
 // A frame's statistics as JSON, under the names that --stats promises.
 #include "stats_json.h"
 
+#include "console.h"
 #include "tessera/renderer.h"
 
 #include <nlohmann/json.hpp>
@@ -17,6 +18,10 @@ std::string statsJson(const Statistics& statistics, const std::string& scene, co
     json["width"] = statistics.width;
     json["height"] = statistics.height;
     json["pixel_samples"] = statistics.pixelSamples;
+    json["mode"] = statistics.mode;
+    // As it would be typed: as a double 0.1 would print as 0.10000000149011612.
+    json["shading_rate"] = nlohmann::ordered_json::parse(shortest(statistics.shadingRate));
+    json["grid_size"] = statistics.gridSize;
     json["method"] = statistics.method;
     json["batch"] = statistics.batch;
     json["patches"] = statistics.patches;

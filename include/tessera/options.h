@@ -3,7 +3,10 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string_view>
+
+#include "tessera/scene.h"
 
 namespace tessera {
 
@@ -14,6 +17,14 @@ enum class SplitMethod {
 };
 
 [[nodiscard]] std::string_view name(SplitMethod method);
+
+// What splitting and dicing decide by.
+enum class DiceMode {
+    watertight,  // rates of edges, which neighbours share: no cracks (after DiagSplit, Fisher et al. 2009)
+    classical,   // halves of ranges at one fixed rate, as Micropolis did: leaves pinholes between ranges of different size
+};
+
+[[nodiscard]] std::string_view name(DiceMode mode);
 
 // Arbitrary output variables: what is written besides colour and coverage. A bit set.
 enum class Aov : std::uint32_t {
@@ -38,7 +49,13 @@ struct RenderOptions {
     int pixelSamples = 4;                               // N of N x N stratified samples a pixel, 1 to 16
     std::array<float, 4> crop{0.0F, 1.0F, 0.0F, 1.0F};  // CropWindow: x0, x1, y0, y1 as fractions of the picture, y down
     SplitMethod method = SplitMethod::bounded;
+    DiceMode mode = DiceMode::watertight;
     std::uint32_t batch = 40000;  // p: ranges bounded at a time, 1 to 1 << 20
+    // Watertight mode. Edges get 2^k micropolygons, each at most sqrt(shadingRate) pixels long and more than half of that.
+    float shadingRate = 1.0F;            // greatest area of a micropolygon in pixels, 0.0625 to 65536
+    int gridSize = 16;                   // most micropolygons along an edge of a range: 1, 2, 4, 8, 16 or 32
+    std::optional<Camera> dicingCamera;  // where rates are measured, in a picture of this size; the frame's own camera without it
+    // Classical mode.
     float splitBound = 8.0F;      // pixels, 0.25 to 65536; a range is diced when it is no longer than this either way
     int diceRate = 8;             // micropolygons along each side of a range, 1 to 32
     int maxDepth = 23;            // splits after which a range is diced whatever its size, 0 to 24

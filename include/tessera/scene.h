@@ -5,6 +5,7 @@
 #include <glm/glm.hpp>
 #include <glm/gtc/quaternion.hpp>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <limits>
@@ -27,19 +28,48 @@ struct Transform {
 [[nodiscard]] glm::dmat4 matrix(const Transform& transform);
 
 enum class PatchKind : std::uint32_t {
-    bezier,   // 16 points, row by row: point 4 v + u of the bicubic control net
-    gregory,  // 20 points: p0..p3, e+0..e+3, e-0..e-3, f+0..f+3, f-0..f-3 (Loop et al. 2009)
+    bezier,    // 16 points, row by row: point 4 v + u of the bicubic control net
+    gregory,   // 20 points: p0..p3, e+0..e+3, e-0..e-3, f+0..f+3, f-0..f-3 (Loop et al. 2009)
+    rational,  // 16 points as for bezier, and a weight above 0 for each in Mesh::weights
+    pn,        // 16 vectors: a cubic triangle's 10 points, then its quadratic normals' 6 (Vlachos et al. 2001). Corners A, B, C lie
+               // at (u, v) = (0, 0), (1, 0), (0, 1). Row by row of rising powers of v, in a row of rising powers of u:
+               //     points   0 A   1     2     3 B      normals  10 A  11    12 B
+               //              4     5     6                       13    14
+               //              7     8                             15 C
+               //              9 C
+               // With a = 1 - u - v the normal is along 10 a^2 + 11 a u + 12 u^2 + 13 a v + 14 u v + 15 v^2, no binomials, as there.
 };
 
-[[nodiscard]] constexpr std::size_t pointsPerPatch(PatchKind kind) { return kind == PatchKind::bezier ? 16 : 20; }
+[[nodiscard]] constexpr std::size_t pointsPerPatch(PatchKind kind) { return kind == PatchKind::gregory ? 20 : 16; }
+
+// The first of these are positions; the rest, of a pn triangle, are normals.
+[[nodiscard]] constexpr std::size_t positionsPerPatch(PatchKind kind) { return kind == PatchKind::pn ? 10 : pointsPerPatch(kind); }
 
 [[nodiscard]] std::string_view name(PatchKind kind);
+
+// The curve that a patch's border is drawn by instead of its own, where its neighbour is of another kind or level: both users of an
+// edge hold the same record, to the bit, so that what they draw there is the same (DESIGN.md, "Edges between patches").
+struct EdgeRecord {
+    std::uint32_t patch = 0;  // in the mesh
+    // The border: 0 is v = 0 from (0, 0) to (1, 0); 1 is u = 1 from (1, 0) to (1, 1), of a pn triangle B to C, with v the parameter;
+    // 2 is v = 1 from (0, 1) to (1, 1), which a pn triangle has not; 3 is u = 0 from (0, 0) to (0, 1).
+    std::uint32_t side = 0;
+    // The border is the part [index, index + 1] / 2^level of a cubic Bezier curve; rational unless all weights are 1.
+    std::array<glm::vec3, 4> points{};
+    std::array<float, 4> weights{1.0F, 1.0F, 1.0F, 1.0F};
+    std::uint32_t level = 0;  // at most 8
+    std::uint32_t index = 0;
+    bool reversed = false;   // whether the border's parameter falls along the curve
+    std::uint32_t cuts = 0;  // at most 8: the curve is cut in the middle at least so many times, as its finest user is; >= level
+};
 
 // Patches of one kind; no point is shared between patches.
 struct Mesh {
     std::string name;
     PatchKind kind = PatchKind::bezier;
-    std::vector<glm::vec3> points;  // pointsPerPatch(kind) points a patch
+    std::vector<glm::vec3> points;    // pointsPerPatch(kind) points a patch
+    std::vector<float> weights{};     // rational: one a point; else empty
+    std::vector<EdgeRecord> edges{};  // made by weld() (tessera/weld.h); at most one a border, sorted by patch and side
 
     [[nodiscard]] std::size_t patchCount() const { return points.size() / pointsPerPatch(kind); }
 };
@@ -100,7 +130,8 @@ struct Scene {
     [[nodiscard]] std::size_t placedPatchCount() const;  // patches over all objects
 
     // Throws Error, naming scene and item (mesh, patch and point), on: coordinates that are not finite or beyond 1e9
-    // (an eye need only be finite), point counts that are no multiple of a patch's, mesh names used twice, objects whose
+    // (an eye or a pn triangle's normals need only be finite), point counts that are no multiple of a patch's, weights outside 1e-6 to
+    // 1e6, missing or out of place, edge records that break their own rules, mesh names used twice, objects whose
     // mesh does not exist, rotations of zero length, near <= 0, fovy outside (0, 180), colours, intensities and far planes
     // that are not finite, materials outside their ranges, kinds that do not exist.
     void validate() const;

@@ -20,6 +20,9 @@ struct Statistics {
     std::string device;
     int width = 0;  // of the full picture, pixels
     int height = 0;
+    std::string mode;          // DiceMode's name
+    float shadingRate = 0.0F;  // watertight mode: greatest area of a micropolygon, pixels; else 0
+    int gridSize = 0;          // watertight mode: most micropolygons along an edge of a range; else 0
     std::string method;
     std::uint64_t batch = 0;
     int pixelSamples = 0;  // N of N x N

@@ -24,8 +24,20 @@ typedef struct {
     uint max_depth;     // splits
     uint dice_rate;     // micropolygons along a side of a range
     uint rate_bits;     // of a micropolygon's row or column in an id: 2^rate_bits >= dice_rate
-    // Patches: [0, bezier_patches) are Bezier, [bezier_patches, patches) Gregory.
+    // Splitting and dicing in watertight mode.
+    uint watertight;      // 0 or 1: which mode it is
+    float dicing_focal;   // pixels, and
+    float dicing_near;    // scene units: of the dicing camera
+    float dicing_across;  // depth per x, and per y, at which a point is seen a picture's width, or height, from the axis
+    float dicing_up;
+    float dicing_length;  // pixels: greatest length of a micropolygon's edge
+    uint grid_bits;       // edges have at most 2^grid_bits micropolygons
+    uint level_most;      // cuts in one direction
+    uint dicing_apart;    // 0 or 1: whether the dicing camera is another
+    // Patches, by kind: Bezier, Gregory from bezier_patches on, rational from gregory_end on, PN triangles from rational_end on.
     uint bezier_patches;
+    uint gregory_end;
+    uint rational_end;
     uint patches;
     // Film, in cells: a cell holds one sample, pixel_samples x pixel_samples cells make a pixel.
     int pixel_samples;

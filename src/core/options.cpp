@@ -1,6 +1,7 @@
 // Names and ranges of what a user can say about a frame.
 #include "tessera/options.h"
 
+#include <bit>
 #include <sstream>
 #include <string>
 
@@ -35,6 +36,8 @@ std::string_view name(SplitMethod method) {
     return "?";
 }
 
+std::string_view name(DiceMode mode) { return mode == DiceMode::watertight ? "watertight" : "classical"; }
+
 void RenderOptions::validate() const {
     requireRange("width", width, 1, 65536);
     requireRange("height", height, 1, 65536);
@@ -42,6 +45,12 @@ void RenderOptions::validate() const {
     for (const float edge : crop) requireRange("crop window", edge, 0.0F, 1.0F);
     if (crop[0] >= crop[1] || crop[2] >= crop[3]) throw Error("crop window is empty: X0 must be below X1, and Y0 below Y1");
     requireRange("batch", batch, 1U, 1U << 20);
+    requireRange("shading rate", shadingRate, 0.0625F, 65536.0F);
+    requireRange("grid size", gridSize, 1, 32);
+    if (!std::has_single_bit(static_cast<unsigned>(gridSize))) {
+        throw Error("grid size is " + std::to_string(gridSize) + ", but must be a power of two: 1, 2, 4, 8, 16 or 32");
+    }
+    if (mode != DiceMode::watertight && mode != DiceMode::classical) throw Error("mode is none that exists; use watertight or classical");
     requireRange("split bound", splitBound, 0.25F, 65536.0F);
     requireRange("dice rate", diceRate, 1, 32);
     requireRange("maximum depth", maxDepth, 0, 24);

@@ -8,7 +8,7 @@ namespace tessera {
 namespace {
 
 const std::vector<std::string>& kernelFiles() {
-    static const std::vector<std::string> files = {"surface/place.cl",  "surface/evaluate.cl", "split/split.cl",
+    static const std::vector<std::string> files = {"surface/place.cl",  "surface/evaluate.cl", "split/split.cl", "split/quad_split.cl",
                                                    "dice/dice_hide.cl", "film/resolve.cl",     "shade/shade.cl"};
     return files;
 }

@@ -1,5 +1,5 @@
 // Stands in for device/lanes.clh where the host compiles kernel headers as C++: one lane, the same bits.
-// For src/split/bound_host.cpp alone.
+// For src/split/bound_host.cpp and src/split/quad_host.cpp alone.
 #pragma once
 
 #include <algorithm>
@@ -17,6 +17,7 @@ using vuint = std::uint32_t;
 inline float fmin(float a, float b) { return std::fmin(a, b); }
 inline float fmax(float a, float b) { return std::fmax(a, b); }
 inline float sqrt(float a) { return std::sqrt(a); }
+inline float fabs(float a) { return std::fabs(a); }
 inline vint vlt(float a, float b) { return a < b ? -1 : 0; }
 inline vint vlt(vint a, vint b) { return a < b ? -1 : 0; }
 inline vint vle(float a, float b) { return a <= b ? -1 : 0; }
@@ -28,7 +29,11 @@ T vselect(T otherwise, T then, vint mask) {
     return mask != 0 ? then : otherwise;
 }
 inline bool vany(vint mask) { return mask != 0; }
-inline float load_lanes(const float* pointer) { return *pointer; }
+template <typename T>
+T load_lanes(const T* pointer) {
+    return *pointer;
+}
+inline vint vlane_index() { return 0; }
 inline float vto_float(vint x) { return static_cast<float>(x); }
 inline vint vas_int(float x) { return std::bit_cast<vint>(x); }
 inline float vas_float(vint x) { return std::bit_cast<float>(x); }

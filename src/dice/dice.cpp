@@ -13,7 +13,7 @@ void enqueueDiceHide(DeviceSession& session, const frame_params& frame, const sp
                      const PatchSet& patches, const Film& film, bool emulateAtomics) {
     const auto hide = [&](cl_uint pass) {
         session.launch(session.kernels.with("dice_hide", frame, limits, queues.state(), queues.ready(), patches.eyePoints.cl(),
-                                            film.samples(), film.touched(), pass),
+                                            patches.placed.cl(), patches.records.cl(), film.samples(), film.touched(), pass),
                        "dice_hide");
     };
     if (emulateAtomics || !session.device.info.atomics64) {

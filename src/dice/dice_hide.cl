@@ -1,16 +1,16 @@
 // dice_hide: a work-group takes a range at a time, evaluates its grid into local memory and hides its micropolygons.
-// In:     ready (state->ready_count ranges), eye_points.
+// In:     ready (state->ready_count ranges: range_t in classical mode, quad_range in watertight mode), eye_points, patches, records.
 // Out:    samples, touched (film/film.clh), with ids of micropolygons as film/batch.clh packs them.
 // Runs:   when `ready` has too little room for another iteration, or nothing is left to split; else it returns at once.
 // Bound:  no global memory beyond the film; a grid of at most 33 x 33 vertices of 12 bytes in local memory.
 // The grid holds 24.8 fixed-point screen positions (as bits in floats) and 1/z; where a vertex is nearer than the near plane or
 // outside the guard band the whole range's grid holds eye-space positions instead and takes the careful path (raster_wide.clh).
 #include "device/lanes.clh"
+#include "dice/box_grid.clh"
+#include "dice/quad_grid.clh"
 #include "dice/raster_lanes.clh"
 #include "dice/raster_wide.clh"
 #include "film/batch.clh"
-#include "surface/patch_eval.clh"
-#include "surface/patch_nets.clh"
 
 #define GRID_SIDE_MOST 33
 // Vectors may read a row and a few places beyond the last vertex.
@@ -23,64 +23,122 @@ typedef struct {
     local int* careful;
 } grid_store;
 
-// Where a range lies in its patch and how its grid steps.
+// A range to be diced, in either mode.
 typedef struct {
-    uint u_index, v_index;  // in units of 2^-level
-    float u_size, v_size;   // 2^-level
-    float per_rate;         // 1 / rate
-} grid_domain;
+    patch_ref patch;
+    grid_domain box;
+    quad_domain quad;
+    int columns, rows;  // of micropolygons
+} grid_range;
 
-static inline grid_domain domain_of(const frame_params* frame, range_t range) {
-    grid_domain domain;
-    domain.u_index = range.u_side & SIDE_INDEX_MASK;
-    domain.v_index = range.v_side & SIDE_INDEX_MASK;
-    domain.u_size = range_side_size(range.u_side);
-    domain.v_size = range_side_size(range.v_side);
-    domain.per_rate = 1.0f / (float)frame->dice_rate;
-    return domain;
+static inline grid_range range_to_dice(const frame_params* frame, global const uint* ready, uint r, global const float* eye_points,
+                                       global const placed_patch* patches, global const edge_info* records) {
+    grid_range range;
+    uint patch_index;
+    if (frame->watertight) {
+        quad_range quad = ((global const quad_range*)ready)[r];
+        range.quad = quad_domain_of(quad);
+        range.columns = range.quad.columns;
+        range.rows = range.quad.rows;
+        patch_index = quad.patch_index;
+    } else {
+        range_t box = ((global const range_t*)ready)[r];
+        range.box = domain_of(frame, box);
+        range.columns = range.rows = (int)frame->dice_rate;
+        patch_index = box.patch_index;
+    }
+    range.patch = patch_at(frame, eye_points, patches, records, patch_index);
+    return range;
 }
 
-// The lanes' eye-space vertices; vertex i is column i mod (rate + 1) of row i / (rate + 1).
-static inline __attribute__((always_inline)) vpoint grid_vertices(const frame_params* frame, grid_domain domain, global const float* net,
-                                                                  int count, int first) {
-    int side = (int)frame->dice_rate + 1;
-    vint i = first + vlane_index();
-    // Exact: i is below 2^11, and the half keeps the quotient away from integers.
-    vint row = vto_int((vto_float(i) + 0.5f) * (1.0f / (float)side));
-    vint column = i - row * side;
-    vfloat u = ((float)domain.u_index + vto_float(column) * domain.per_rate) * domain.u_size;
-    vfloat v = ((float)domain.v_index + vto_float(row) * domain.per_rate) * domain.v_size;
-    return patch_point(net, count, u, v);
+// The lanes' vertices as the grid holds them.
+typedef struct {
+    vfloat x, y, w;
+    vint bad;  // nearer than the near plane or outside the guard band
+} grid_lanes;
+
+static inline grid_lanes snap_vertices(const frame_params* frame, vpoint p) {
+    grid_lanes out;
+    vfloat w = 1.0f / p.z;
+    vfloat x = p.x * w * frame->raster_scale;
+    vfloat y = p.y * w * frame->raster_scale;
+    const float guard = GUARD_CELLS * 256.0f;
+    out.bad = ~(vle((vfloat)(frame->near_plane), p.z) & vle(fabs(x), (vfloat)(guard)) & vle(fabs(y), (vfloat)(guard)));
+    out.x = vas_float(film_snap(x + frame->raster_x) - frame->raster_x0);
+    out.y = vas_float(film_snap(frame->raster_y - y) - frame->raster_y0);
+    out.w = w;
+    return out;
 }
 
-static inline void snap_grid(const frame_params* frame, grid_domain domain, global const float* net, int count, grid_store grid) {
-    int vertices = ((int)frame->dice_rate + 1) * ((int)frame->dice_rate + 1);
+static inline grid_lanes keep_vertices(vpoint p) {
+    grid_lanes out = {p.x, p.y, p.z, (vint)(0)};
+    return out;
+}
+
+static inline void store_vertices(grid_store grid, int at, grid_lanes lanes) {
+    store_lanes(lanes.x, grid.x + at);
+    store_lanes(lanes.y, grid.y + at);
+    store_lanes(lanes.w, grid.w + at);
+}
+
+static inline void scatter_vertices(grid_store grid, vint place, int count, grid_lanes lanes) {
+    int places[LANES];
+    float x[LANES], y[LANES], w[LANES];
+    store_lanes(place, places);
+    store_lanes(lanes.x, x);
+    store_lanes(lanes.y, y);
+    store_lanes(lanes.w, w);
+    for (int k = 0; k < LANES && k < count; ++k) {
+        grid.x[places[k]] = x[k];
+        grid.y[places[k]] = y[k];
+        grid.w[places[k]] = w[k];
+    }
+}
+
+// Fills the grid with snapped positions, or with those in eye space. Returns the lanes that met a vertex which cannot be snapped.
+static inline vint fill_box_grid(const frame_params* frame, const grid_range* range, grid_store grid, bool snap) {
+    int vertices = (range->columns + 1) * (range->rows + 1);
     vint bad = (vint)(0);
     for (int i = (int)get_local_id(0) * LANES; i < vertices; i += GROUP * LANES) {
-        vpoint p = grid_vertices(frame, domain, net, count, i);
-        vfloat w = 1.0f / p.z;
-        vfloat x = p.x * w * frame->raster_scale;
-        vfloat y = p.y * w * frame->raster_scale;
-        const float guard = GUARD_CELLS * 256.0f;
-        vint good = vle((vfloat)(frame->near_plane), p.z) & vle(fabs(x), (vfloat)(guard)) & vle(fabs(y), (vfloat)(guard));
-        bad |= ~good & vlt(i + vlane_index(), (vint)(vertices));
-        vint fixed_x = film_snap(x + frame->raster_x) - frame->raster_x0;
-        vint fixed_y = film_snap(frame->raster_y - y) - frame->raster_y0;
-        store_lanes(vas_float(fixed_x), grid.x + i);
-        store_lanes(vas_float(fixed_y), grid.y + i);
-        store_lanes(w, grid.w + i);
+        vpoint p = grid_vertices(frame, range->box, range->patch, i);
+        grid_lanes lanes = snap ? snap_vertices(frame, p) : keep_vertices(p);
+        store_vertices(grid, i, lanes);
+        bad |= lanes.bad & vlt(i + vlane_index(), (vint)(vertices));
     }
-    if (vany(bad)) *grid.careful = 1;
+    return bad;
 }
 
-static inline void keep_eye_grid(const frame_params* frame, grid_domain domain, global const float* net, int count, grid_store grid) {
-    int vertices = ((int)frame->dice_rate + 1) * ((int)frame->dice_rate + 1);
-    for (int i = (int)get_local_id(0) * LANES; i < vertices; i += GROUP * LANES) {
-        vpoint p = grid_vertices(frame, domain, net, count, i);
-        store_lanes(p.x, grid.x + i);
-        store_lanes(p.y, grid.y + i);
-        store_lanes(p.z, grid.w + i);
+// The rows between the first and the last, with what they hold of the border, which is laid over them later.
+static inline vint fill_quad_rows(const frame_params* frame, const grid_range* range, grid_store grid, bool snap) {
+    int side = range->columns + 1;
+    int inner = (range->rows - 1) * side;
+    vint bad = (vint)(0);
+    for (int i = (int)get_local_id(0) * LANES; i < inner; i += GROUP * LANES) {
+        vpoint p = quad_inner_vertices(&range->quad, range->patch, i);
+        grid_lanes lanes = snap ? snap_vertices(frame, p) : keep_vertices(p);
+        store_vertices(grid, side + i, lanes);
+        bad |= lanes.bad & vlt(i + vlane_index(), (vint)(inner));
     }
+    return bad;
+}
+
+// The second part of a grid, after a barrier: the border of a watertight range.
+static inline vint fill_border(const frame_params* frame, const grid_range* range, grid_store grid, bool snap) {
+    vint bad = (vint)(0);
+    if (!frame->watertight) return bad;
+    int border = QUAD_BORDER_VERTICES(&range->quad);
+    for (int i = (int)get_local_id(0) * LANES; i < border; i += GROUP * LANES) {
+        quad_border at = quad_border_vertices(&range->quad, i);
+        vpoint p = patch_vertex(range->patch, at.u, at.v);
+        grid_lanes lanes = snap ? snap_vertices(frame, p) : keep_vertices(p);
+        scatter_vertices(grid, at.place, border - i, lanes);
+        bad |= lanes.bad & vlt(i + vlane_index(), (vint)(border));
+    }
+    return bad;
+}
+
+static inline vint fill_rows(const frame_params* frame, const grid_range* range, grid_store grid, bool snap) {
+    return frame->watertight ? fill_quad_rows(frame, range, grid, snap) : fill_box_grid(frame, range, grid, snap);
 }
 
 static inline wide_vertex snapped_vertex(grid_store grid, int i) {
@@ -93,60 +151,71 @@ static inline wide_point eye_vertex(grid_store grid, int i) {
     return p;
 }
 
-static inline void hide_large(const frame_params* frame, hide_target* target, grid_store grid, int vertex, uint id) {
-    int side = (int)frame->dice_rate + 1;
+static inline void hide_large(const frame_params* frame, hide_target* target, grid_store grid, int side, int vertex, uint id) {
     wide_vertex a = snapped_vertex(grid, vertex), b = snapped_vertex(grid, vertex + 1);
     wide_vertex c = snapped_vertex(grid, vertex + side + 1), d = snapped_vertex(grid, vertex + side);
     wide_triangle(frame, target, a, b, c, id);
     wide_triangle(frame, target, a, c, d, id);
 }
 
-// Micropolygons are taken in blocks of BLOCK_COLUMNS x BLOCK_ROWS, a lane each: at the usual rate of 8 no lane idles.
-#if LANES == 16
-#define BLOCK_ROWS 2
-#else
-#define BLOCK_ROWS 1
-#endif
-#define BLOCK_COLUMNS (LANES / BLOCK_ROWS)
-
-static inline vfloat load_block(local const float* corner, int side) {
-#if LANES == 16
-    return (vfloat)(vload8(0, corner), vload8(0, corner + side));
-#else
-    return load_lanes(corner);
-#endif
+// Micropolygons are taken in blocks, a lane each: two rows of eight where the grid is wide enough, so that at the usual rates of 8 and 16
+// no lane idles; one row of 16 in grids of one row, and four columns in narrow grids.
+static inline int block_columns(int columns, int rows) {
+    if (LANES == 1) return 1;
+    if (columns <= 4) return 4;
+    return LANES == 16 && rows == 1 && columns > 8 ? 16 : 8;
 }
 
-static inline lane_quads load_quads(grid_store grid, int vertex, int side) {
+static inline vfloat load_block(local const float* corner, int side, int columns) {
+#if LANES == 16
+    if (columns == 8) return (vfloat)(vload8(0, corner), vload8(0, corner + side));
+    if (columns == 4) {
+        return (vfloat)(vload4(0, corner), vload4(0, corner + side), vload4(0, corner + 2 * side), vload4(0, corner + 3 * side));
+    }
+#elif LANES == 8
+    if (columns == 4) return (vfloat)(vload4(0, corner), vload4(0, corner + side));
+#endif
+    return load_lanes(corner);
+}
+
+static inline __attribute__((always_inline)) lane_quads load_quads(grid_store grid, int vertex, int side, int columns) {
     lane_quads q;
-    q.ax = vas_int(load_block(grid.x + vertex, side));
-    q.bx = vas_int(load_block(grid.x + vertex + 1, side));
-    q.dx = vas_int(load_block(grid.x + vertex + side, side));
-    q.cx = vas_int(load_block(grid.x + vertex + side + 1, side));
-    q.ay = vas_int(load_block(grid.y + vertex, side));
-    q.by = vas_int(load_block(grid.y + vertex + 1, side));
-    q.dy = vas_int(load_block(grid.y + vertex + side, side));
-    q.cy = vas_int(load_block(grid.y + vertex + side + 1, side));
-    q.aw = load_block(grid.w + vertex, side);
-    q.bw = load_block(grid.w + vertex + 1, side);
-    q.dw = load_block(grid.w + vertex + side, side);
-    q.cw = load_block(grid.w + vertex + side + 1, side);
+    q.ax = vas_int(load_block(grid.x + vertex, side, columns));
+    q.bx = vas_int(load_block(grid.x + vertex + 1, side, columns));
+    q.dx = vas_int(load_block(grid.x + vertex + side, side, columns));
+    q.cx = vas_int(load_block(grid.x + vertex + side + 1, side, columns));
+    q.ay = vas_int(load_block(grid.y + vertex, side, columns));
+    q.by = vas_int(load_block(grid.y + vertex + 1, side, columns));
+    q.dy = vas_int(load_block(grid.y + vertex + side, side, columns));
+    q.cy = vas_int(load_block(grid.y + vertex + side + 1, side, columns));
+    q.aw = load_block(grid.w + vertex, side, columns);
+    q.bw = load_block(grid.w + vertex + 1, side, columns);
+    q.dw = load_block(grid.w + vertex + side, side, columns);
+    q.cw = load_block(grid.w + vertex + side + 1, side, columns);
     return q;
 }
 
-static inline void hide_snapped_grid(const frame_params* frame, hide_target* target, grid_store grid, uint first_id) {
-    int rate = (int)frame->dice_rate;
-    int side = rate + 1;
-    int blocks_x = (rate + BLOCK_COLUMNS - 1) / BLOCK_COLUMNS;
-    int blocks = blocks_x * ((rate + BLOCK_ROWS - 1) / BLOCK_ROWS);
-    vint lane_column = vlane_index() % BLOCK_COLUMNS;
-    vint lane_row = vlane_index() / BLOCK_COLUMNS;
+static inline lane_quads load_shaped_quads(grid_store grid, int vertex, int side, int columns) {
+    if (LANES > 1 && columns == 8) return load_quads(grid, vertex, side, 8);
+    if (LANES > 1 && columns == 4) return load_quads(grid, vertex, side, 4);
+    return load_quads(grid, vertex, side, LANES);
+}
+
+static inline void hide_snapped_grid(const frame_params* frame, hide_target* target, grid_store grid, int columns, int rows,
+                                     uint first_id) {
+    int side = columns + 1;
+    int across = block_columns(columns, rows);
+    int down = LANES / across;
+    int blocks_x = (columns + across - 1) / across;
+    int blocks = blocks_x * ((rows + down - 1) / down);
+    vint lane_column = vlane_index() & (across - 1);
+    vint lane_row = (vlane_index() - lane_column) / across;
     for (int i = (int)get_local_id(0); i < blocks; i += GROUP) {
-        int row = i / blocks_x * BLOCK_ROWS;
-        int column = i % blocks_x * BLOCK_COLUMNS;
+        int row = i / blocks_x * down;
+        int column = i % blocks_x * across;
         int vertex = row * side + column;
-        lane_quads q = load_quads(grid, vertex, side);
-        q.active = vlt(column + lane_column, (vint)(rate)) & vlt(row + lane_row, (vint)(rate));
+        lane_quads q = load_shaped_quads(grid, vertex, side, across);
+        q.active = vlt(column + lane_column, (vint)(columns)) & vlt(row + lane_row, (vint)(rows));
         vint large = raster_bounds(frame, &q);
         vint ids = (int)first_id + ((row + lane_row) << (int)frame->rate_bits) + column + lane_column;
         if (vany(q.active)) raster_quads(frame, target, q, ids);
@@ -155,18 +224,17 @@ static inline void hide_snapped_grid(const frame_params* frame, hide_target* tar
             store_lanes(large, lanes);
             store_lanes(ids, names);
             for (int k = 0; k < LANES; ++k)
-                if (lanes[k]) hide_large(frame, target, grid, vertex + k / BLOCK_COLUMNS * side + k % BLOCK_COLUMNS, (uint)names[k]);
+                if (lanes[k]) hide_large(frame, target, grid, side, vertex + k / across * side + k % across, (uint)names[k]);
         }
     }
 }
 
-static inline void hide_eye_grid(const frame_params* frame, hide_target* target, grid_store grid, uint first_id) {
-    int rate = (int)frame->dice_rate;
-    int side = rate + 1;
-    for (int i = (int)get_local_id(0); i < rate * rate; i += GROUP) {
-        int row = i / rate;
+static inline void hide_eye_grid(const frame_params* frame, hide_target* target, grid_store grid, int columns, int rows, uint first_id) {
+    int side = columns + 1;
+    for (int i = (int)get_local_id(0); i < columns * rows; i += GROUP) {
+        int row = i / columns;
         int vertex = i + row;
-        uint id = first_id + (uint)((row << (int)frame->rate_bits) + i - row * rate);
+        uint id = first_id + (uint)((row << (int)frame->rate_bits) + i - row * columns);
         wide_point a = eye_vertex(grid, vertex), b = eye_vertex(grid, vertex + 1);
         wide_point c = eye_vertex(grid, vertex + side + 1), d = eye_vertex(grid, vertex + side);
         wide_clip_and_cover(frame, target, a, b, c, id);
@@ -175,8 +243,9 @@ static inline void hide_eye_grid(const frame_params* frame, hide_target* target,
 }
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void dice_hide(frame_params frame, split_limits limits,
-                                                                         global const split_state* state, global const range_t* ready,
-                                                                         global const float* eye_points, global ulong* samples,
+                                                                         global const split_state* state, global const uint* ready,
+                                                                         global const float* eye_points, global const placed_patch* patches,
+                                                                         global const edge_info* records, global ulong* samples,
                                                                          global uchar* touched, uint pass) {
     local float grid_x[GRID_FLOATS], grid_y[GRID_FLOATS], grid_w[GRID_FLOATS];
     local int careful;
@@ -196,21 +265,24 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void dice_hide(frame_p
         uint r = ((step / run) * groups + (uint)get_group_id(0)) * run + step % run;
         if (r - step % run >= ranges) break;
         if (r >= ranges) continue;
-        range_t range = ready[r];
-        grid_domain domain = domain_of(&frame, range);
-        int count = patch_point_count(&frame, range.patch_index);
-        global const float* net = eye_points + patch_offset(&frame, range.patch_index);
+        grid_range range = range_to_dice(&frame, ready, r, eye_points, patches, records);
         uint first_id = first_id_of(r, frame.rate_bits);
         if (get_local_id(0) == 0) careful = 0;
         barrier(CLK_LOCAL_MEM_FENCE);
-        snap_grid(&frame, domain, net, count, grid);
+        // Barriers stand at the kernel's own level: within branches that hold more, PoCL's groups of many work-items crashed.
+        if (vany(fill_rows(&frame, &range, grid, true))) careful = 1;
         barrier(CLK_LOCAL_MEM_FENCE);
-        if (careful) {
-            keep_eye_grid(&frame, domain, net, count, grid);
-            barrier(CLK_LOCAL_MEM_FENCE);
-            hide_eye_grid(&frame, &target, grid, first_id);
+        if (vany(fill_border(&frame, &range, grid, true))) careful = 1;
+        barrier(CLK_LOCAL_MEM_FENCE);
+        bool snapped = careful == 0;
+        if (!snapped) fill_rows(&frame, &range, grid, false);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (!snapped) fill_border(&frame, &range, grid, false);
+        barrier(CLK_LOCAL_MEM_FENCE);
+        if (!snapped) {
+            hide_eye_grid(&frame, &target, grid, range.columns, range.rows, first_id);
         } else {
-            hide_snapped_grid(&frame, &target, grid, first_id);
+            hide_snapped_grid(&frame, &target, grid, range.columns, range.rows, first_id);
         }
         hide_waiting(&target);
         barrier(CLK_LOCAL_MEM_FENCE);

@@ -10,7 +10,7 @@
 #include "film/film.clh"
 
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void resolve_samples(frame_params frame, split_limits limits,
-                                                                               global const split_state* state, global const range_t* ready,
+                                                                               global const split_state* state, global const uint* ready,
                                                                                global uint2* samples, global uchar* touched,
                                                                                global uint* reference_patch, global float* reference_u,
                                                                                global float* reference_v) {

@@ -70,11 +70,14 @@ struct Mesh {
   enum Type {
     bezier @0;
     gregory @1;
+    rational @2;  # this and what follows is Tessera's own
+    pn @3;
   }
 
   name @0 :Text;
   type @1 :Type;
-  positions @2 :List(Float32);  # xyz of 16 (bezier) or 20 (gregory) control points a patch
+  positions @2 :List(Float32);  # xyz of 16 (bezier, rational) or 20 (gregory) control points a patch; pn: of 10 points and 6 normals
+  weights @3 :List(Float32);    # rational: one a control point, above 0; else left out
 }
 
 struct Scene {

@@ -106,30 +106,61 @@ glm::vec3 readColor(const Reading& reading, Item source, const std::string& item
     return glm::vec3(1.0F);
 }
 
+PatchKind readKind(const Reading& reading, schema::Mesh::Reader source, const std::string& item) {
+    switch (source.getType()) {
+        case schema::Mesh::Type::BEZIER:
+            return PatchKind::bezier;
+        case schema::Mesh::Type::GREGORY:
+            return PatchKind::gregory;
+        case schema::Mesh::Type::RATIONAL:
+            return PatchKind::rational;
+        case schema::Mesh::Type::PN:
+            return PatchKind::pn;
+    }
+    // A file may hold any number here.
+    reading.fail(item + ": unknown type " + std::to_string(static_cast<int>(source.getType())) + "; use bezier, gregory, rational or pn");
+}
+
+std::vector<glm::vec3> readPoints(const Reading& reading, schema::Mesh::Reader source, PatchKind kind, const std::string& item) {
+    // Fetched once: each fetch counts against the message's traversal limit.
+    const capnp::List<float>::Reader positions = source.getPositions();
+    const std::uint32_t perPatch = static_cast<std::uint32_t>(pointsPerPatch(kind)) * 3;
+    if (positions.size() % perPatch != 0) {
+        reading.fail(item + ": " + std::to_string(positions.size()) + " numbers are no multiple of the " + std::to_string(perPatch) +
+                     " of a " + std::string(name(kind)) + " patch; give whole patches");
+    }
+    if (positions.size() == 0) reading.warn(item + " has no patches");
+    std::vector<glm::vec3> points;
+    points.reserve(positions.size() / 3);
+    for (std::uint32_t i = 0; i < positions.size(); i += 3) points.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
+    return points;
+}
+
+// Only their number is judged here: their values are a matter of Scene::validate().
+std::vector<float> readWeights(const Reading& reading, schema::Mesh::Reader source, const Mesh& mesh, const std::string& item) {
+    const capnp::List<float>::Reader stored = source.getWeights();
+    if (mesh.kind != PatchKind::rational) {
+        if (stored.size() == 0) return {};
+        reading.fail(item + ": has weights, which " + std::string(name(mesh.kind)) +
+                     " patches have not; make it rational or leave them out");
+    }
+    if (stored.size() != mesh.points.size()) {
+        reading.fail(item + ": " + std::to_string(stored.size()) + " weights do not fit its " + std::to_string(mesh.points.size()) +
+                     " control points; give one a point");
+    }
+    std::vector<float> weights;
+    weights.reserve(stored.size());
+    for (const float weight : stored) weights.push_back(weight);
+    return weights;
+}
+
 Mesh readMesh(const Reading& reading, schema::Mesh::Reader source, std::size_t index) {
     Mesh mesh;
     mesh.name = readName(reading, source.getName(), itemText("mesh", index));
     const std::string item = "mesh " + quotedName(mesh.name);
-    switch (source.getType()) {
-        case schema::Mesh::Type::BEZIER:
-            mesh.kind = PatchKind::bezier;
-            break;
-        case schema::Mesh::Type::GREGORY:
-            mesh.kind = PatchKind::gregory;
-            break;
-        default:
-            reading.fail(item + ": unknown type " + std::to_string(static_cast<int>(source.getType())) + "; use bezier or gregory");
-    }
-    // Fetched once: each fetch counts against the message's traversal limit.
-    const capnp::List<float>::Reader positions = source.getPositions();
-    const std::uint32_t perPatch = static_cast<std::uint32_t>(pointsPerPatch(mesh.kind)) * 3;
-    if (positions.size() % perPatch != 0) {
-        reading.fail(item + ": " + std::to_string(positions.size()) + " numbers are no multiple of the " + std::to_string(perPatch) +
-                     " of a " + std::string(name(mesh.kind)) + " patch; give whole patches");
-    }
-    if (positions.size() == 0) reading.warn(item + " has no patches");
-    mesh.points.reserve(positions.size() / 3);
-    for (std::uint32_t i = 0; i < positions.size(); i += 3) mesh.points.emplace_back(positions[i], positions[i + 1], positions[i + 2]);
+    mesh.kind = readKind(reading, source, item);
+    mesh.points = readPoints(reading, source, mesh.kind, item);
+    mesh.weights = readWeights(reading, source, mesh, item);
     return mesh;
 }
 

@@ -45,9 +45,23 @@ void write(schema::Transform::Builder target, const Transform& transform) {
     rotation.setK(transform.rotation.z);
 }
 
+schema::Mesh::Type meshType(PatchKind kind) {
+    switch (kind) {
+        case PatchKind::bezier:
+            return schema::Mesh::Type::BEZIER;
+        case PatchKind::gregory:
+            return schema::Mesh::Type::GREGORY;
+        case PatchKind::rational:
+            return schema::Mesh::Type::RATIONAL;
+        case PatchKind::pn:
+            return schema::Mesh::Type::PN;
+    }
+    return schema::Mesh::Type::BEZIER;
+}
+
 void write(schema::Mesh::Builder target, const Mesh& mesh) {
     target.setName(text(mesh.name));
-    target.setType(mesh.kind == PatchKind::bezier ? schema::Mesh::Type::BEZIER : schema::Mesh::Type::GREGORY);
+    target.setType(meshType(mesh.kind));
     auto positions = target.initPositions(listSize(mesh.points.size() * 3, "mesh " + quotedName(mesh.name) + ", coordinates"));
     std::uint32_t i = 0;
     for (const glm::vec3& point : mesh.points) {
@@ -55,6 +69,9 @@ void write(schema::Mesh::Builder target, const Mesh& mesh) {
         positions.set(i++, point.y);
         positions.set(i++, point.z);
     }
+    if (mesh.weights.empty()) return;
+    auto weights = target.initWeights(listSize(mesh.weights.size(), "mesh " + quotedName(mesh.name) + ", weights"));
+    for (i = 0; i < weights.size(); ++i) weights.set(i, mesh.weights[i]);
 }
 
 schema::LightSource::Type lightType(LightKind kind) {

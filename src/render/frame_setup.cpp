@@ -5,6 +5,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "split/quad_shared.h"
+
 namespace tessera {
 namespace {
 
@@ -19,6 +21,36 @@ void setBounds(frame_params& frame, const RenderOptions& options) {
     frame.cull_right = static_cast<float>(options.width - 1) + ribbonPixels;
     frame.cull_bottom = -ribbonPixels;
     frame.cull_top = static_cast<float>(options.height - 1) + ribbonPixels;
+}
+
+// The crop window itself, for hulls cull nothing that could be seen; a pixel more for what rounding may have moved.
+constexpr int hullMargin = 1;
+
+void setHullBounds(frame_params& frame, const RenderOptions& options, const FilmLayout& film) {
+    frame.cull_left = static_cast<float>(film.x0 - hullMargin);
+    frame.cull_right = static_cast<float>(film.x0 + film.width + hullMargin);
+    frame.cull_bottom = static_cast<float>(options.height - film.y0 - film.height - hullMargin);
+    frame.cull_top = static_cast<float>(options.height - film.y0 + hullMargin);
+}
+
+double focalLength(const Camera& camera, const RenderOptions& options) {
+    const double halfAngle = static_cast<double>(camera.fovy) * std::numbers::pi / 360.0;
+    return options.height / 2.0 / std::tan(halfAngle);
+}
+
+void setWatertight(frame_params& frame, const Camera& camera, const RenderOptions& options, const FilmLayout& film) {
+    const Camera& dicing = options.dicingCamera ? *options.dicingCamera : camera;
+    frame.watertight = 1;
+    frame.dicing_focal = static_cast<float>(focalLength(dicing, options));
+    frame.dicing_near = dicing.near;
+    frame.dicing_across = frame.dicing_focal / static_cast<float>(options.width);
+    frame.dicing_up = frame.dicing_focal / static_cast<float>(options.height);
+    frame.dicing_length = std::sqrt(options.shadingRate);
+    frame.grid_bits = rateBits(options.gridSize);
+    frame.level_most = QUAD_LEVEL_MOST;
+    frame.dicing_apart = options.dicingCamera ? 1 : 0;
+    frame.rate_bits = frame.grid_bits;
+    setHullBounds(frame, options, film);
 }
 
 void setFilm(frame_params& frame, const FilmLayout& film) {
@@ -63,8 +95,7 @@ glm::dmat4 eyeFromWorld(const Camera& camera) {
 
 frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, const PatchSet& patches) {
     frame_params frame{};
-    const double halfAngle = static_cast<double>(camera.fovy) * std::numbers::pi / 360.0;
-    frame.focal = static_cast<float>(options.height / 2.0 / std::tan(halfAngle));
+    frame.focal = static_cast<float>(focalLength(camera, options));
     frame.centre_x = static_cast<float>(options.width) * 0.5F;
     frame.centre_y = static_cast<float>(options.height) * 0.5F;
     frame.near_plane = camera.near;
@@ -74,7 +105,10 @@ frame_params setUpFrame(const Camera& camera, const RenderOptions& options, cons
     frame.max_depth = static_cast<std::uint32_t>(options.maxDepth);
     frame.dice_rate = static_cast<std::uint32_t>(options.diceRate);
     frame.rate_bits = rateBits(options.diceRate);
+    if (options.mode == DiceMode::watertight) setWatertight(frame, camera, options, film);
     frame.bezier_patches = patches.bezierPatches;
+    frame.gregory_end = patches.gregoryEnd;
+    frame.rational_end = patches.rationalEnd;
     frame.patches = patches.patches;
     setFilm(frame, film);
     frame.cull_backfaces = options.cullBackfaces ? 1 : 0;

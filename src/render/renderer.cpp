@@ -72,7 +72,7 @@ struct Renderer::Impl {
     void releasePicture();
     void planMemory(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& picture);
     void reserve(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& picture);
-    void placePatches(const frame_params& params, const std::vector<placed_object>& placed);
+    void placePatches(const frame_params& params, const std::vector<placed_object>& placed, const RenderOptions& options);
     SplitResult split(const frame_params& params, const RenderOptions& options, const Progress& progress);
     Frame drawFrame(const Camera& camera, const RenderOptions& options, const Progress& progress);
     Statistics gather(const RenderOptions& options, const SplitResult& result, std::uint32_t pixelsCovered, double frameMs);
@@ -84,6 +84,7 @@ struct Renderer::Impl {
     PatchSet patches;
     SplitQueues queues;
     Film film;
+    DeviceBuffer dicingPoints;  // the patches in the dicing camera's space, where it is another
     DeviceBuffer objects;
     DeviceBuffer lights;
     DeviceBuffer picture;
@@ -103,17 +104,20 @@ void Renderer::Impl::releasePicture() {
 
 // Refuses a frame that the device can't hold before anything is allocated, and lets go of what earlier, larger frames left.
 void Renderer::Impl::planMemory(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& pictureLayout) {
-    const std::uint64_t sceneBytes = patches.points.bytes() + patches.placed.bytes() + patches.eyePoints.bytes();
+    const std::uint64_t sceneBytes = patches.bytes() + (options.dicingCamera ? patches.eyeBytes() : 0);
     const split_limits limits = boundedLimits(options);
     const bool bounded = options.method == SplitMethod::bounded;
-    const std::uint64_t queueBytes = bounded ? SplitQueues::bytes(limits, boundedStack(options)) : 0;
+    const std::uint64_t queueBytes = bounded ? SplitQueues::bytes(limits, boundedStack(options), options.mode) : 0;
     const std::uint64_t smallBytes = scene.objects.size() * sizeof(placed_object) + (scene.lights.size() + 1) * sizeof(eye_light);
     const std::uint64_t bytes = sceneBytes + queueBytes + smallBytes + layout.bytes() + pictureLayout.floats * sizeof(float);
     std::uint64_t largest = std::max(layout.samples * 8, pictureLayout.floats * sizeof(float));
-    if (bounded) largest = std::max(largest, sizeof(range_t) * std::max<std::uint64_t>(boundedStack(options), limits.ready_capacity));
+    if (bounded)
+        largest = std::max(largest,
+                           SplitQueues::rangeBytes(options.mode) * std::max<std::uint64_t>(boundedStack(options), limits.ready_capacity));
     if (session.memory.bytes() > bytes) {
         film.release();
         queues.release();
+        dicingPoints = DeviceBuffer();
         picture = DeviceBuffer();
     }
     const DeviceInfo& info = session.device.info;
@@ -127,24 +131,29 @@ void Renderer::Impl::planMemory(const RenderOptions& options, const FilmLayout& 
 
 void Renderer::Impl::reserve(const RenderOptions& options, const FilmLayout& layout, const PictureLayout& pictureLayout) {
     film.prepare(layout);
+    queues.setMode(options.mode);
     if (options.method == SplitMethod::bounded) queues.reserve(boundedLimits(options), boundedStack(options));
+    if (options.dicingCamera) session.memory.ensure(dicingPoints, "the patches in the dicing camera's space", patches.eyeBytes());
     session.memory.ensure(objects, "the objects", scene.objects.size() * sizeof(placed_object), CL_MEM_READ_ONLY);
     session.memory.ensure(lights, "the lights", std::max<std::size_t>(1, scene.lights.size()) * sizeof(eye_light), CL_MEM_READ_ONLY);
     session.memory.ensure(picture, "the picture", pictureLayout.floats * sizeof(float), CL_MEM_READ_WRITE | CL_MEM_ALLOC_HOST_PTR);
 }
 
-void Renderer::Impl::placePatches(const frame_params& params, const std::vector<placed_object>& placed) {
+void Renderer::Impl::placePatches(const frame_params& params, const std::vector<placed_object>& placed, const RenderOptions& options) {
     if (patches.patches == 0) return;
-    session.timeline.write(objects.cl(), placed.data(), placed.size() * sizeof(placed_object));
-    // A work-item a patch in turn; 64 a group on every device.
-    const std::size_t groups = std::min<std::size_t>((patches.patches + 63) / 64, session.device.shape.groups);
-    session.timeline.launch(
-        session.kernels.with("place_patches", params, patches.points.cl(), patches.placed.cl(), objects.cl(), patches.eyePoints.cl()),
-        "place_patches", groups, 64);
+    const std::size_t bytes = placed.size() * sizeof(placed_object);
+    if (options.dicingCamera) {
+        const std::vector<placed_object> dicing = placeObjects(scene, eyeFromWorld(*options.dicingCamera));
+        session.timeline.write(objects.cl(), dicing.data(), bytes);
+        enqueuePlace(session, params, patches, objects.cl(), dicingPoints.cl());
+    }
+    session.timeline.write(objects.cl(), placed.data(), bytes);
+    enqueuePlace(session, params, patches, objects.cl(), patches.eyePoints.cl());
 }
 
 SplitResult Renderer::Impl::split(const frame_params& params, const RenderOptions& options, const Progress& progress) {
-    const SplitLoop loop{session, queues, film, params, patches, options, progress};
+    const cl::Buffer& dicing = options.dicingCamera ? dicingPoints.cl() : patches.eyePoints.cl();
+    const SplitLoop loop{session, queues, film, params, patches, dicing, options, progress};
     switch (options.method) {
         case SplitMethod::cpu:
             return runCpu(loop);
@@ -172,7 +181,7 @@ Frame Renderer::Impl::drawFrame(const Camera& camera, const RenderOptions& optio
 
     film.distrust();
     const auto start = Clock::now();
-    placePatches(params, placedObjects);
+    placePatches(params, placedObjects, options);
     session.timeline.write(lights.cl(), placedLights.data(), placedLights.size() * sizeof(eye_light));
     const SplitResult result = split(params, options, progress);
     if (progress) progress("shade", 1.0);
@@ -194,6 +203,11 @@ Statistics Renderer::Impl::gather(const RenderOptions& options, const SplitResul
     statistics.height = options.height;
     statistics.method = name(options.method);
     statistics.batch = options.batch;
+    statistics.mode = name(options.mode);
+    if (options.mode == DiceMode::watertight) {
+        statistics.shadingRate = options.shadingRate;
+        statistics.gridSize = options.gridSize;
+    }
     statistics.pixelSamples = options.pixelSamples;
     statistics.patches = patches.patches;
     statistics.rangesProcessed = wide(result.state.processed_low, result.state.processed_high);
@@ -202,14 +216,16 @@ Statistics Renderer::Impl::gather(const RenderOptions& options, const SplitResul
     statistics.stackPeak = result.stackPeak;
     statistics.iterations = result.state.iterations;
     statistics.batches = result.state.batches;
-    statistics.micropolygons = statistics.rangesDiced * static_cast<std::uint64_t>(options.diceRate * options.diceRate);
+    statistics.micropolygons = options.mode == DiceMode::watertight
+                                   ? wide(result.state.micropolygons_low, result.state.micropolygons_high)
+                                   : statistics.rangesDiced * static_cast<std::uint64_t>(options.diceRate * options.diceRate);
     statistics.pixelsCovered = pixelsCovered;
     statistics.frameMs = frameMs;
     statistics.buildMs = session.kernels.buildMilliseconds();
     statistics.kernelMs = session.timeline.milliseconds();
     statistics.splitMs = result.hostMs;
     for (const auto& [label, milliseconds] : statistics.kernelMs) {
-        if (label.starts_with("split_")) statistics.splitMs += milliseconds;
+        if (label.starts_with("split_") || label.starts_with("quad_")) statistics.splitMs += milliseconds;
     }
     statistics.deviceBytesPeak = session.memory.peakBytes();
     if (options.trace) statistics.trace = session.timeline.trace();
@@ -260,6 +276,11 @@ Frame Renderer::render(const Camera& camera, const RenderOptions& options, const
     if (!impl_->hasScene) throw Error("no scene is set; call setScene() before render()");
     options.validate();
     validateCamera(camera, "camera '" + camera.name + "'");
+    if (options.dicingCamera) validateCamera(*options.dicingCamera, "dicing camera '" + options.dicingCamera->name + "'");
+    if (options.mode == DiceMode::classical && impl_->patches.patches > impl_->patches.gregoryEnd) {
+        throw Error(impl_->scene.name +
+                    ": classical mode knows Bezier and Gregory patches alone, not rational ones or triangles; use --mode watertight");
+    }
     try {
         return impl_->drawFrame(camera, options, progress);
     } catch (const cl::Error& error) {

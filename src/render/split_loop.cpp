@@ -90,11 +90,15 @@ void hide(const SplitLoop& loop, const split_limits& limits) {
 }  // namespace
 
 split_limits boundedLimits(const RenderOptions& options) {
-    const std::uint64_t numbered = mostNumbered(rateBits(options.diceRate));
+    const int rate = options.mode == DiceMode::watertight ? options.gridSize : options.diceRate;
+    const std::uint64_t numbered = mostNumbered(rateBits(rate));
     return {options.batch, static_cast<std::uint32_t>(std::min<std::uint64_t>(batchesReady * std::uint64_t{options.batch}, numbered))};
 }
 
-std::uint64_t boundedStack(const RenderOptions& options) { return (static_cast<std::uint64_t>(options.maxDepth) + 1) * options.batch; }
+std::uint64_t boundedStack(const RenderOptions& options) {
+    const int depth = options.mode == DiceMode::watertight ? 2 * QUAD_LEVEL_MOST : options.maxDepth;
+    return (static_cast<std::uint64_t>(depth) + 1) * options.batch;
+}
 
 SplitResult runBounded(const SplitLoop& loop) {
     const split_limits limits = boundedLimits(loop.options);
@@ -104,7 +108,7 @@ SplitResult runBounded(const SplitLoop& loop) {
     SplitResult result;
     bool over = loop.patches.patches == 0;
     while (!over) {
-        for (int k = 0; k < iterationsPerRound; ++k) loop.queues.enqueueIteration(loop.frame, limits, loop.patches);
+        for (int k = 0; k < iterationsPerRound; ++k) loop.queues.enqueueIteration(loop.frame, limits, loop.patches, loop.dicingPoints);
         hide(loop, limits);
         auto state = std::make_unique<split_state>();
         cl::Event event = loop.queues.readStateLater(*state);
@@ -131,7 +135,7 @@ SplitResult runBreadth(const SplitLoop& loop) {
         const auto all = static_cast<std::uint32_t>(count);
         loop.queues.growStack(2 * count, result.state.stack_count);
         loop.queues.reserve({all, all}, 0);
-        loop.queues.enqueueIteration(loop.frame, {all, all}, loop.patches);
+        loop.queues.enqueueIteration(loop.frame, {all, all}, loop.patches, loop.dicingPoints);
         hide(loop, hideWhatIsReady);
         result.state = loop.queues.readState();
         report(loop, static_cast<double>(result.state.area_done) / loop.patches.patches);
@@ -140,17 +144,48 @@ SplitResult runBreadth(const SplitLoop& loop) {
     return result;
 }
 
-SplitResult runCpu(const SplitLoop& loop) {
+namespace {
+
+template <typename T>
+std::vector<T> readAll(Timeline& timeline, const cl::Buffer& buffer, std::size_t count) {
+    std::vector<T> values(count);
+    if (count > 0) timeline.read(buffer, values.data(), count * sizeof(T));
+    return values;
+}
+
+HostPatches readPatches(const SplitLoop& loop) {
+    Timeline& timeline = loop.session.timeline;
+    const PatchSet& patches = loop.patches;
+    const std::size_t floats = patches.eyeBytes() / sizeof(float);
+    HostPatches host;
+    host.eyePoints = readAll<float>(timeline, patches.eyePoints.cl(), floats);
+    if (loop.frame.dicing_apart != 0) host.dicingPoints = readAll<float>(timeline, loop.dicingPoints, floats);
+    host.placed = readAll<placed_patch>(timeline, patches.placed.cl(), patches.patches);
+    host.records = readAll<edge_info>(timeline, patches.records.cl(), patches.recordCount);
+    return host;
+}
+
+void setCounts(split_state& state, const HostSplitCounts& counts) {
+    const auto set = [](std::uint32_t& low, std::uint32_t& high, std::uint64_t count) {
+        low = static_cast<std::uint32_t>(count);
+        high = static_cast<std::uint32_t>(count >> 32);
+    };
+    set(state.processed_low, state.processed_high, counts.processed);
+    set(state.diced_low, state.diced_high, counts.diced);
+    set(state.culled_low, state.culled_high, counts.culled);
+    set(state.micropolygons_low, state.micropolygons_high, counts.micropolygons);
+}
+
+template <typename Rule>
+SplitResult runOnHost(const SplitLoop& loop, Rule rule) {
     using Clock = std::chrono::steady_clock;
     loop.queues.reserve({1, loop.options.batch + 1024}, 0);
-    std::vector<float> eyePoints(loop.patches.eyePoints.bytes() / sizeof(float));
-    loop.session.timeline.read(loop.patches.eyePoints.cl(), eyePoints.data(), eyePoints.size() * sizeof(float));
-    HostSplit split(loop.frame, std::move(eyePoints), loop.options.threads);
+    HostSplit<Rule> split(std::move(rule), loop.options.threads);
     // The device must take no batch for the last one: the state says that patches are left.
     SplitResult result;
     while (true) {
         const auto start = Clock::now();
-        const std::vector<range_t> ranges = split.next(loop.options.batch);
+        const std::vector<typename Rule::Range> ranges = split.next(loop.options.batch);
         result.hostMs += std::chrono::duration<double, std::milli>(Clock::now() - start).count();
         if (ranges.empty()) break;
         result.state.ready_count = static_cast<std::uint32_t>(ranges.size());
@@ -160,17 +195,19 @@ SplitResult runCpu(const SplitLoop& loop) {
         ++result.state.batches;
         report(loop, split.fractionFed());
     }
-    const HostSplitCounts counts = split.counts();
     result.state.ready_count = 0;
-    result.state.processed_low = static_cast<std::uint32_t>(counts.processed);
-    result.state.processed_high = static_cast<std::uint32_t>(counts.processed >> 32);
-    result.state.diced_low = static_cast<std::uint32_t>(counts.diced);
-    result.state.diced_high = static_cast<std::uint32_t>(counts.diced >> 32);
-    result.state.culled_low = static_cast<std::uint32_t>(counts.culled);
-    result.state.culled_high = static_cast<std::uint32_t>(counts.culled >> 32);
+    setCounts(result.state, split.counts());
     loop.queues.writeState(result.state);
-    result.stackPeak = counts.stackPeak;
+    result.stackPeak = split.counts().stackPeak;
     return result;
+}
+
+}  // namespace
+
+SplitResult runCpu(const SplitLoop& loop) {
+    HostPatches patches = readPatches(loop);
+    if (loop.frame.watertight != 0) return runOnHost(loop, WatertightRule(loop.frame, std::move(patches)));
+    return runOnHost(loop, ClassicalRule(loop.frame, std::move(patches.eyePoints)));
 }
 
 }  // namespace tessera

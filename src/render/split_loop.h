@@ -14,6 +14,7 @@ struct SplitLoop {
     Film& film;
     const frame_params& frame;
     const PatchSet& patches;
+    const cl::Buffer& dicingPoints;  // the patches in the dicing camera's space; patches.eyePoints where it is the frame's own
     const RenderOptions& options;
     const Progress& progress;
 };
@@ -27,7 +28,7 @@ struct SplitResult {
 
 // p ranges at a time, and room for several batches of diceable ones, as far as 32 bits can number their micropolygons.
 [[nodiscard]] split_limits boundedLimits(const RenderOptions& options);
-// The bound on the stack, (K + 1) p, for any number of patches (DESIGN.md, "Bounded split without the N").
+// The bound on the stack, (K + 1) p for K cuts at most, for any number of patches (DESIGN.md, "Bounded split without the N").
 [[nodiscard]] std::uint64_t boundedStack(const RenderOptions& options);
 
 // Requires queues reserved for boundedLimits() and boundedStack(). Leaves the state buffer for shade_tiles' count.

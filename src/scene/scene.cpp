@@ -44,6 +44,10 @@ std::string_view name(PatchKind kind) {
             return "bezier";
         case PatchKind::gregory:
             return "gregory";
+        case PatchKind::rational:
+            return "rational";
+        case PatchKind::pn:
+            return "pn";
     }
     return "unknown";
 }
@@ -80,7 +84,10 @@ Bounds worldBounds(const Scene& scene) {
     forEachPlacedMesh(scene, [&](const Object& object, const Mesh& mesh) {
         const glm::dmat3 rotation = rotationMatrix(object.transform);
         const glm::dvec3 translation(object.transform.translation);
-        for (const glm::vec3& point : mesh.points) bounds.include(glm::vec3(rotation * glm::dvec3(point) + translation));
+        const std::size_t step = pointsPerPatch(mesh.kind), positions = positionsPerPatch(mesh.kind);
+        for (std::size_t k = 0; k < mesh.points.size(); ++k) {
+            if (k % step < positions) bounds.include(glm::vec3(rotation * glm::dvec3(mesh.points[k]) + translation));
+        }
     });
     return bounds;
 }

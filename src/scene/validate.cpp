@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <unordered_set>
+#include <utility>
 
 namespace tessera {
 
@@ -23,9 +24,13 @@ bool isFinite(const glm::vec3& v) { return std::isfinite(v.x) && std::isfinite(v
 bool isCoordinate(float value) { return std::abs(value) <= kLargestCoordinate; }
 bool isPosition(const glm::vec3& v) { return isCoordinate(v.x) && isCoordinate(v.y) && isCoordinate(v.z); }
 
+// Weights further from 1 leave too little of single precision.
+bool isWeight(float value) { return value >= 1e-6F && value <= 1e6F; }
+
 std::string pointText(const glm::vec3& v) { return "(" + numberText(v.x) + ", " + numberText(v.y) + ", " + numberText(v.z) + ")"; }
 
 constexpr std::string_view kPositionRule = " is not finite or beyond 1e9; scale or repair the scene";
+constexpr std::string_view kWeightRule = " is not above 0, or not within 1e-6 to 1e6; give weights around 1";
 
 void checkRotation(const Transform& transform, const std::string& where) {
     const double length = glm::length(glm::dquat(transform.rotation));
@@ -44,20 +49,82 @@ void checkColor(const glm::vec3& color, const std::string& where) {
     if (!isFinite(color)) fail(where, "colour " + pointText(color) + " is not finite; give three numbers, linear RGB");
 }
 
-void checkMesh(const Mesh& mesh, const std::string& where) {
-    if (mesh.kind != PatchKind::bezier && mesh.kind != PatchKind::gregory) {
-        fail(where, "patches are of no known kind; use bezier or gregory");
-    }
-    const std::size_t perPatch = pointsPerPatch(mesh.kind);
+void checkPoints(const Mesh& mesh, const std::string& where) {
+    const std::size_t perPatch = pointsPerPatch(mesh.kind), positions = positionsPerPatch(mesh.kind);
     if (mesh.points.size() % perPatch != 0) {
         fail(where, "has " + std::to_string(mesh.points.size()) + " points, which is no multiple of the " + std::to_string(perPatch) +
                         " of a " + std::string(name(mesh.kind)) + " patch; give whole patches");
     }
     for (std::size_t i = 0; i < mesh.points.size(); ++i) {
-        if (isPosition(mesh.points[i])) continue;
+        const bool isNormal = i % perPatch >= positions;
+        if (isNormal ? isFinite(mesh.points[i]) : isPosition(mesh.points[i])) continue;
         fail(where + ", patch " + std::to_string(i / perPatch) + ", point " + std::to_string(i % perPatch),
-             pointText(mesh.points[i]) + std::string(kPositionRule));
+             pointText(mesh.points[i]) + std::string(isNormal ? " is a normal that is not finite; compute it anew" : kPositionRule));
     }
+}
+
+void checkWeights(const Mesh& mesh, const std::string& where) {
+    if (mesh.kind != PatchKind::rational) {
+        if (mesh.weights.empty()) return;
+        fail(where, "has weights, which a " + std::string(name(mesh.kind)) + " patch has not; leave them out, or make it rational");
+    }
+    if (mesh.weights.size() != mesh.points.size()) {
+        fail(where, "has " + std::to_string(mesh.weights.size()) + " weights for " + std::to_string(mesh.points.size()) +
+                        " points; give one for each");
+    }
+    for (std::size_t i = 0; i < mesh.weights.size(); ++i) {
+        if (isWeight(mesh.weights[i])) continue;
+        fail(where + ", patch " + std::to_string(i / 16) + ", point " + std::to_string(i % 16),
+             "weight " + numberText(mesh.weights[i]) + std::string(kWeightRule));
+    }
+}
+
+// What is wrong with an edge record by itself; empty where it is sound.
+std::string edgeFault(const Mesh& mesh, const EdgeRecord& edge) {
+    if (edge.patch >= mesh.patchCount()) return "there are only " + std::to_string(mesh.patchCount()) + " patches; weld anew";
+    if (edge.side > 3 || (edge.side == 2 && mesh.kind == PatchKind::pn)) {
+        return "a " + std::string(name(mesh.kind)) + " patch has no such side; weld anew";
+    }
+    for (const glm::vec3& point : edge.points) {
+        if (!isPosition(point)) return pointText(point) + std::string(kPositionRule);
+    }
+    for (const float weight : edge.weights) {
+        if (!isWeight(weight)) return "weight " + numberText(weight) + std::string(kWeightRule);
+    }
+    if (edge.cuts > 8) return "is cut " + std::to_string(edge.cuts) + " times; at most 8 are possible";
+    if (edge.level > edge.cuts) {
+        return "is of level " + std::to_string(edge.level) + ", but cut " + std::to_string(edge.cuts) + " times; cut it as often at least";
+    }
+    if (edge.index >= 1U << edge.level) {
+        return "is part " + std::to_string(edge.index) + " of " + std::to_string(1U << edge.level) + "; count from 0";
+    }
+    return {};
+}
+
+void checkEdges(const Mesh& mesh, const std::string& where) {
+    const EdgeRecord* previous = nullptr;
+    for (const EdgeRecord& edge : mesh.edges) {
+        std::string fault = edgeFault(mesh, edge);
+        if (fault.empty() && previous != nullptr) {
+            const std::pair before(previous->patch, previous->side), now(edge.patch, edge.side);
+            if (before == now) fault = "there are two; keep one";
+            if (before > now) fault = "is not in order; sort edge records by patch and side";
+        }
+        if (!fault.empty()) {
+            fail(where + ", edge record of patch " + std::to_string(edge.patch) + ", side " + std::to_string(edge.side), fault);
+        }
+        previous = &edge;
+    }
+}
+
+void checkMesh(const Mesh& mesh, const std::string& where) {
+    if (mesh.kind != PatchKind::bezier && mesh.kind != PatchKind::gregory && mesh.kind != PatchKind::rational &&
+        mesh.kind != PatchKind::pn) {
+        fail(where, "patches are of no known kind; use bezier, gregory, rational or pn");
+    }
+    checkPoints(mesh, where);
+    checkWeights(mesh, where);
+    checkEdges(mesh, where);
 }
 
 void checkMaterial(const Material& material, const std::string& where) {

@@ -36,7 +36,7 @@ typedef struct {
     global const uint* patch_index;
     global const float* u;
     global const float* v;
-    global const range_t* ready;
+    global const uint* ready;
 } sample_references;
 
 static inline surface_reference look_up(const frame_params* frame, sample_references references, uint id, int sample) {
@@ -150,10 +150,13 @@ static inline void shade_slots(const frame_params* frame, shade_list list, int f
         uint patch_index = (uint)vreduce_max(vselect((vint)(-1), patch_lanes, waiting));
         vint mine = waiting & veq(patch_lanes, (vint)((int)patch_index));
         waiting &= ~mine;
+        global const float* net = eye_points + patch_offset(frame, patch_index);
+        int kind = patch_kind(frame, patch_index);
         vpoint du, dv;
-        vpoint p = patch_tangents(eye_points + patch_offset(frame, patch_index), patch_point_count(frame, patch_index), u, v, &du, &dv);
+        vpoint p = patch_tangents(net, kind, u, v, &du, &dv);
+        vpoint across = kind == KIND_PN ? pn_normal(net, u, v) : normal_of_tangents(du, dv);
         position = blend_point(position, p, mine);
-        normal = blend_point(normal, facing_normal(p, du, dv), mine);
+        normal = blend_point(normal, facing_normal(p, across), mine);
         global const placed_object* object = objects + patches[patch_index].object;
         vpoint color = {(vfloat)(object->color[0]), (vfloat)(object->color[1]), (vfloat)(object->color[2])};
         material.color = blend_point(material.color, color, mine);
@@ -247,7 +250,7 @@ static inline int pixel_place(const frame_params* frame, const pixel_walk* walk)
 kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void shade_tiles(
     frame_params frame, picture_planes planes, global const float* eye_points, global const placed_patch* patches,
     global const placed_object* objects, global const eye_light* lights, global const uint* reference_patch,
-    global const float* reference_u, global const float* reference_v, global const range_t* ready, global ulong* samples,
+    global const float* reference_u, global const float* reference_v, global const uint* ready, global ulong* samples,
     global uchar* touched, global float* picture, global split_state* state) {
     local ulong list_key[TILE_SAMPLES_MOST];
     local int list_place[TILE_SAMPLES_MOST], list_sample[TILE_SAMPLES_MOST], list_count[TILE_PIXELS_MOST], list_first[TILE_PIXELS_MOST + 1];

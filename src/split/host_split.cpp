@@ -24,50 +24,66 @@ std::uint32_t halfSide(std::uint32_t side, std::uint32_t which) {
 
 }  // namespace
 
-HostSplit::HostSplit(const frame_params& frame, std::vector<float> eyePoints, unsigned threads)
-    : frame_(frame), eyePoints_(std::move(eyePoints)), workers_(threadCount(threads, frame.patches)) {
-    for (std::size_t k = 0; k < workers_.size(); ++k) workers_[k].nextPatch = static_cast<std::uint32_t>(k);
-}
-
-void HostSplit::step(Worker& worker, const range_t& range) const {
+void ClassicalRule::step(const Range& range, std::vector<Range>& stack, std::vector<Range>& ready, HostSplitCounts& counts) const {
     const bool gregory = range.patch_index >= frame_.bezier_patches;
     const std::size_t bezier = std::min(range.patch_index, frame_.bezier_patches);
-    const std::size_t offset = bezier * 3 * BEZIER_POINTS + (range.patch_index - bezier) * 3 * GREGORY_POINTS;
+    const std::size_t offset = bezier * BEZIER_FLOATS + (range.patch_index - bezier) * GREGORY_FLOATS;
     const int action = boundOnHost(frame_, eyePoints_.data() + offset, gregory ? GREGORY_POINTS : BEZIER_POINTS, range);
-    ++worker.counts.processed;
     if (action == ACTION_CULL) {
-        ++worker.counts.culled;
+        ++counts.culled;
     } else if (action == ACTION_DICE) {
-        ++worker.counts.diced;
-        worker.ready.push_back(range);
+        ++counts.diced;
+        ready.push_back(range);
     } else {
         // The second half waits below the first: ranges come out in the order of the parameter.
         for (const std::uint32_t which : {1U, 0U}) {
             range_t child = range;
             std::uint32_t& side = action == ACTION_SPLIT_U ? child.u_side : child.v_side;
             side = halfSide(side, which);
-            worker.stack.push_back(child);
+            stack.push_back(child);
         }
     }
 }
 
-void HostSplit::run(Worker& worker, std::size_t limit) const {
+void WatertightRule::step(const Range& range, std::vector<Range>& stack, std::vector<Range>& ready, HostSplitCounts& counts) const {
+    const QuadStep step = splitOnHost(frame_, patches_, range);
+    if (step.action == 0) {
+        ++counts.culled;
+    } else if (step.action == 1) {
+        ++counts.diced;
+        counts.micropolygons += std::uint64_t{1} << (((step.diced.sizes >> 16U) & 0xffU) + (step.diced.sizes >> 24U));
+        ready.push_back(step.diced);
+    } else {
+        stack.push_back(step.children[1]);
+        stack.push_back(step.children[0]);
+    }
+}
+
+template <typename Rule>
+HostSplit<Rule>::HostSplit(Rule rule, unsigned threads) : rule_(std::move(rule)), workers_(threadCount(threads, rule_.frame().patches)) {
+    for (std::size_t k = 0; k < workers_.size(); ++k) workers_[k].nextPatch = static_cast<std::uint32_t>(k);
+}
+
+template <typename Rule>
+void HostSplit<Rule>::run(Worker& worker, std::size_t limit) const {
     worker.ready.clear();
     const auto stride = static_cast<std::uint32_t>(workers_.size());
     while (worker.ready.size() < limit) {
         if (worker.stack.empty()) {
-            if (worker.nextPatch >= frame_.patches) return;
-            worker.stack.push_back({worker.nextPatch, 0, 0});
+            if (worker.nextPatch >= rule_.frame().patches) return;
+            worker.stack.push_back(rule_.whole(worker.nextPatch));
             worker.nextPatch += stride;
         }
         worker.counts.stackPeak = std::max<std::uint64_t>(worker.counts.stackPeak, worker.stack.size());
-        const range_t range = worker.stack.back();
+        const Range range = worker.stack.back();
         worker.stack.pop_back();
-        step(worker, range);
+        ++worker.counts.processed;
+        rule_.step(range, worker.stack, worker.ready, worker.counts);
     }
 }
 
-void HostSplit::runAll(std::size_t limit) {
+template <typename Rule>
+void HostSplit<Rule>::runAll(std::size_t limit) {
     std::vector<std::future<void>> others;
     try {
         for (std::size_t k = 1; k < workers_.size(); ++k) {
@@ -80,29 +96,37 @@ void HostSplit::runAll(std::size_t limit) {
     }
 }
 
-std::vector<range_t> HostSplit::next(std::size_t limit) {
+template <typename Rule>
+auto HostSplit<Rule>::next(std::size_t limit) -> std::vector<Range> {
     const std::size_t share = std::max<std::size_t>(1, limit / workers_.size());
     runAll(share);
-    std::vector<range_t> ranges;
+    std::vector<Range> ranges;
     for (const Worker& worker : workers_) ranges.insert(ranges.end(), worker.ready.begin(), worker.ready.end());
     return ranges;
 }
 
-HostSplitCounts HostSplit::counts() const {
+template <typename Rule>
+HostSplitCounts HostSplit<Rule>::counts() const {
     HostSplitCounts sum;
     for (const Worker& worker : workers_) {
         sum.processed += worker.counts.processed;
         sum.diced += worker.counts.diced;
         sum.culled += worker.counts.culled;
+        sum.micropolygons += worker.counts.micropolygons;
         sum.stackPeak = std::max(sum.stackPeak, worker.counts.stackPeak);
     }
     return sum;
 }
 
-double HostSplit::fractionFed() const {
+template <typename Rule>
+double HostSplit<Rule>::fractionFed() const {
+    const std::uint32_t patches = rule_.frame().patches;
     std::uint64_t fed = 0;
     for (std::size_t k = 0; k < workers_.size(); ++k) fed += (workers_[k].nextPatch - k) / workers_.size();
-    return frame_.patches == 0 ? 1.0 : static_cast<double>(fed) / frame_.patches;
+    return patches == 0 ? 1.0 : static_cast<double>(fed) / patches;
 }
+
+template class HostSplit<ClassicalRule>;
+template class HostSplit<WatertightRule>;
 
 }  // namespace tessera

@@ -2,11 +2,14 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
 #include "core/frame_shared.h"
 #include "device/session.h"
+#include "split/quad_shared.h"
 #include "split/range_shared.h"
 #include "surface/patch_set.h"
+#include "tessera/options.h"
 
 namespace tessera {
 
@@ -14,8 +17,14 @@ class SplitQueues {
 public:
     explicit SplitQueues(DeviceSession& session) : session_(session) {}
 
-    // The bytes that reserve() takes.
-    [[nodiscard]] static std::uint64_t bytes(const split_limits& limits, std::uint64_t stackRanges);
+    // The bytes that reserve() takes, for ranges of a mode.
+    [[nodiscard]] static std::uint64_t bytes(const split_limits& limits, std::uint64_t stackRanges, DiceMode mode);
+    [[nodiscard]] static std::uint64_t rangeBytes(DiceMode mode) {
+        return mode == DiceMode::watertight ? sizeof(quad_range) : sizeof(range_t);
+    }
+
+    // Which ranges the queues hold from the next reserve() on.
+    void setMode(DiceMode mode) { mode_ = mode; }
 
     // Makes room for iterations within `limits` on a stack of `stackRanges`. Contents are lost.
     void reserve(const split_limits& limits, std::uint64_t stackRanges);
@@ -27,23 +36,42 @@ public:
 
     // Empties the queues for a new frame.
     void restart();
-    // One iteration; a no-op on the device where nothing is left or too little room is in `ready`.
-    void enqueueIteration(const frame_params& frame, const split_limits& limits, const PatchSet& patches);
+    // One iteration; a no-op on the device where nothing is left or too little room is in `ready`. `dicingPoints`: the patches in the
+    // dicing camera's space (watertight mode); their eye points where it is the frame's own.
+    void enqueueIteration(const frame_params& frame, const split_limits& limits, const PatchSet& patches, const cl::Buffer& dicingPoints);
+    void enqueueIteration(const frame_params& frame, const split_limits& limits, const PatchSet& patches) {
+        enqueueIteration(frame, limits, patches, patches.eyePoints.cl());
+    }
 
     [[nodiscard]] split_state readState();
     [[nodiscard]] cl::Event readStateLater(split_state& state);
     void writeState(const split_state& state);
-    void writeReady(const std::vector<range_t>& ranges);
-    [[nodiscard]] std::vector<range_t> readStack(std::size_t count);  // for tests
+    template <typename Range>
+    void writeReady(const std::vector<Range>& ranges) {
+        if (!ranges.empty()) session_.timeline.write(ready_.cl(), ranges.data(), ranges.size() * sizeof(Range));
+    }
+    // The first ranges on the stack, for tests.
+    template <typename Range = range_t>
+    [[nodiscard]] std::vector<Range> readStack(std::size_t count) {
+        std::vector<Range> ranges(count);
+        if (count > 0) session_.timeline.read(stack_.cl(), ranges.data(), count * sizeof(Range));
+        return ranges;
+    }
 
     [[nodiscard]] const cl::Buffer& ready() const { return ready_.cl(); }
     [[nodiscard]] const cl::Buffer& state() const { return state_.cl(); }
 
 private:
+    void enqueueClassical(const frame_params& frame, const split_limits& limits, const PatchSet& patches);
+    void enqueueWatertight(const frame_params& frame, const split_limits& limits, const PatchSet& patches, const cl::Buffer& dicingPoints);
+    [[nodiscard]] std::size_t groupsFor(const split_limits& limits) const;
+
     DeviceSession& session_;
+    DiceMode mode_ = DiceMode::classical;
     DeviceBuffer stack_;
     DeviceBuffer batch_;
     DeviceBuffer actions_;
+    DeviceBuffer cuts_;  // watertight mode
     DeviceBuffer chunkSums_;
     DeviceBuffer ready_;
     DeviceBuffer state_;

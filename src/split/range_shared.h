@@ -29,6 +29,7 @@ typedef struct {
 typedef struct {
     uint splits;
     uint dices;
+    uint micropolygons;  // of the diced ones; 0 in classical mode, where all ranges have the same number
     float area;
 } chunk_sum;
 
@@ -48,6 +49,8 @@ typedef struct {
     uint diced_high;
     uint culled_low;
     uint culled_high;
+    uint micropolygons_low;
+    uint micropolygons_high;
     uint stack_peak;
     uint iterations;
     uint batches;

@@ -1,4 +1,5 @@
-// One iteration of bound and split, in three kernels; `breadth` and `bounded` differ in the batch size alone.
+// One iteration of bound and split in the classical mode, in three kernels; `breadth` and `bounded` differ in the batch size alone.
+// split_scan serves the watertight mode too (quad_split.cl).
 // After Weber and Owens, "Parallel Reyes-style Adaptive Subdivision with Bounded Memory Usage" (2015), with a lazy feed.
 //
 // Queues:   stack  ranges sorted by level, deepest at the end; at most (K + 1) p. Children go back to its end in order.
@@ -11,27 +12,11 @@
 // Slots come from scans, never from atomics: the order of ranges, and so the picture, is always the same.
 #include "core/frame_shared.h"
 #include "device/lanes.clh"
+#include "split/plan.clh"
 #include "split/range.clh"
 #define NET_SPACE local
 #include "split/bound.clh"
 #include "surface/patch_nets.clh"
-
-typedef struct {
-    uint count;       // ranges of this iteration
-    uint fresh;       // the first of them are new patches
-    uint stack_base;  // the stack below the others
-} split_plan;
-
-static inline split_plan plan_iteration(const frame_params* frame, global const split_state* state, split_limits limits) {
-    split_plan plan;
-    uint left = frame->patches - state->next_input;
-    uint taken = min(limits.batch, state->stack_count);
-    bool room = limits.ready_capacity - state->ready_count >= limits.batch;
-    plan.fresh = room ? min(limits.batch - taken, left) : 0u;
-    plan.count = room ? taken + plan.fresh : 0u;
-    plan.stack_base = state->stack_count - (room ? taken : 0u);
-    return plan;
-}
 
 static inline range_t fetch_range(split_plan plan, global const split_state* state, global const range_t* stack, uint i) {
     range_t range;
@@ -43,17 +28,6 @@ static inline range_t fetch_range(split_plan plan, global const split_state* sta
         range = stack[plan.stack_base + (i - plan.fresh)];
     }
     return range;
-}
-
-static inline chunk_sum no_ranges(void) {
-    chunk_sum none = {0u, 0u, 0.0f};
-    return none;
-}
-
-static inline void add_sum(chunk_sum* sum, chunk_sum more) {
-    sum->splits += more.splits;
-    sum->dices += more.dices;
-    sum->area += more.area;
 }
 
 static inline void add_action(chunk_sum* sum, uint action, range_t range) {
@@ -157,6 +131,7 @@ static inline void book_iteration(split_plan plan, global split_state* state, ch
     add_wide(&state->processed_low, &state->processed_high, plan.count);
     add_wide(&state->diced_low, &state->diced_high, dices);
     add_wide(&state->culled_low, &state->culled_high, plan.count - splits - dices);
+    add_wide(&state->micropolygons_low, &state->micropolygons_high, total.micropolygons);
 }
 
 // One group: each work-item sums a run of chunks, then turns the run into exclusive sums.

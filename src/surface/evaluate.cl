@@ -11,7 +11,7 @@ kernel void evaluate_points(frame_params frame, global const float* eye_points, 
     for (uint i = (uint)get_global_id(0); i < count; i += (uint)get_global_size(0)) {
         evaluate_point point = points[i];
         vpoint du, dv;
-        vpoint p = patch_tangents(eye_points + patch_offset(&frame, point.patch_index), patch_point_count(&frame, point.patch_index),
+        vpoint p = patch_tangents(eye_points + patch_offset(&frame, point.patch_index), patch_kind(&frame, point.patch_index),
                                   (vfloat)(point.u), (vfloat)(point.v), &du, &dv);
         global float* to = out + 9u * i;
         to[0] = vfirst(p.x);

@@ -1,27 +1,73 @@
-// place_patches: object-space control points in file order -> eye-space control points, x[], y[], z[] a patch.
-// In:  points (as uploaded, 3 floats each), patches (one placed_patch a patch), objects (this frame's matrices).
-// Out: eye_points: Bezier patches first, 48 floats each, then Gregory patches, 60 floats each, in net order.
-// A work-item a patch; the NDRange covers all patches. Memory: 192 or 240 bytes a patch.
+// place_patches: object-space control points in file order -> eye-space control points, a net a patch (patch_shared.h).
+// place_records: the same for the curves of edge records, behind the patches' nets.
+// In:  points (as uploaded, floats), patches (one placed_patch a patch) or records, objects (this frame's matrices).
+// Out: eye_points: by kind; 192 bytes a Bezier patch or PN triangle, 240 a Gregory, 304 a rational patch, 64 a record.
+// A work-item a patch or record; the NDRange covers all.
+// The same object-space bits give the same eye-space bits, whatever the kind, as far as objects have the same matrix and a weight is 1.
 #include "core/frame_shared.h"
 #include "device/lanes.clh"
 #include "surface/patch_nets.clh"
 
 constant int gregory_net_source[GREGORY_POINTS] = {0, 4, 9, 1, 8, 12, 13, 5, 7, 15, 14, 10, 3, 11, 6, 2, 16, 17, 18, 19};
 
+// A row of the matrix times (x, y, z, w).
+static inline float place_row(global const float* row, float x, float y, float z, float w) {
+    return row[0] * x + row[1] * y + row[2] * z + row[3] * w;
+}
+
+// Points of x, y, z, w multiplied by w, into `count` places a coordinate.
+static inline void place_homogeneous(global const float* m, global const float* points, int count, global float* net) {
+    for (int k = 0; k < count; ++k) {
+        float x = points[4 * k], y = points[4 * k + 1], z = points[4 * k + 2], w = points[4 * k + 3];
+        net[k] = place_row(m, x, y, z, w);
+        net[count + k] = place_row(m + 4, x, y, z, w);
+        net[2 * count + k] = place_row(m + 8, x, y, z, w);
+        net[3 * count + k] = w;
+    }
+}
+
+// The corners of a rational patch, as a polynomial neighbour would have them. They are uploaded behind its homogeneous points.
+static inline void place_corners(global const float* m, global const float* corners, global float* net) {
+    for (int k = 0; k < 4; ++k) {
+        float x = corners[3 * k], y = corners[3 * k + 1], z = corners[3 * k + 2];
+        net[k] = place_row(m, x, y, z, 1.0f);
+        net[4 + k] = place_row(m + 4, x, y, z, 1.0f);
+        net[8 + k] = place_row(m + 8, x, y, z, 1.0f);
+    }
+}
+
+static inline void place_polynomial(global const float* m, global const float* points, int kind, global float* net) {
+    int count = kind == KIND_GREGORY ? GREGORY_POINTS : BEZIER_POINTS;
+    for (int k = 0; k < count; ++k) {
+        global const float* p = points + 3 * (kind == KIND_GREGORY ? gregory_net_source[k] : k);
+        float x = p[0], y = p[1], z = p[2];
+        float w = kind == KIND_PN && k >= 10 ? 0.0f : 1.0f;  // normals only turn
+        net[k] = place_row(m, x, y, z, w);
+        net[count + k] = place_row(m + 4, x, y, z, w);
+        net[2 * count + k] = place_row(m + 8, x, y, z, w);
+    }
+}
+
 kernel void place_patches(frame_params frame, global const float* points, global const placed_patch* patches,
                           global const placed_object* objects, global float* eye_points) {
     for (uint patch_index = (uint)get_global_id(0); patch_index < frame.patches; patch_index += (uint)get_global_size(0)) {
-        int count = patch_point_count(&frame, patch_index);
         placed_patch placed = patches[patch_index];
         global const float* m = objects[placed.object].eye_from_object;
         global float* net = eye_points + patch_offset(&frame, patch_index);
-        for (int k = 0; k < count; ++k) {
-            int source = count == GREGORY_POINTS ? gregory_net_source[k] : k;
-            global const float* p = points + 3 * (placed.first_point + (uint)source);
-            float x = p[0], y = p[1], z = p[2];
-            net[k] = m[0] * x + m[1] * y + m[2] * z + m[3];
-            net[count + k] = m[4] * x + m[5] * y + m[6] * z + m[7];
-            net[2 * count + k] = m[8] * x + m[9] * y + m[10] * z + m[11];
+        int kind = patch_kind(&frame, patch_index);
+        if (kind == KIND_RATIONAL) {
+            place_homogeneous(m, points + placed.first_float, 16, net);
+            place_corners(m, points + placed.first_float + 64, net + 64);
+        } else {
+            place_polynomial(m, points + placed.first_float, kind, net);
         }
+    }
+}
+
+kernel void place_records(frame_params frame, uint records, global const float* points, global const edge_info* info,
+                          global const placed_object* objects, global float* eye_points) {
+    for (uint r = (uint)get_global_id(0); r < records; r += (uint)get_global_size(0)) {
+        global const float* m = objects[info[r].object].eye_from_object;
+        place_homogeneous(m, points + info[r].first_float, 4, eye_points + record_offset(&frame, r));
     }
 }

@@ -1,7 +1,13 @@
-// The surfaces in double precision: positions, exact first derivatives and normals of Bezier and Gregory patches.
+// The surfaces in double precision: positions, exact first derivatives and normals of every kind of patch.
 // Written from the definitions, apart from the kernels, so that tests have something to hold these against.
 //
 // Bezier: 16 points, number 4 v + u of the bicubic net.
+// Rational: 16 points as for Bezier and a weight above 0 for each: sum of (weight x Bernstein x point) over sum of (weight x Bernstein).
+//
+// PN triangle (Vlachos, Peters, Boyd, Mitchell 2001), w = 1 - u - v: the cubic triangle sum of 3! / (i! j! k!) u^i v^j w^k P(i, j),
+// i + j + k = 3, over u, v, w >= 0; P(i, j) is point i of row j, the rows beginning at points 0, 4, 7 and 9. For shading alone, after
+// these ten positions, six normals N(i, j) in rows that begin at 10, 13 and 15: sum of u^i v^j w^k N(i, j), i + j + k = 2, without
+// binomial factors, as that paper has it.
 //
 // Gregory (Loop, Schaefer, Ni, Castano 2009): 20 points p0..p3, e+0..e+3, e-0..e-3, f+0..f+3, f-0..f-3. Corners go around:
 // p0 at (u, v) = (0, 0), p1 (1, 0), p2 (1, 1), p3 (0, 1). e+i lies on the border from corner i to the next one,
@@ -34,7 +40,8 @@
 
 namespace tessera::reference {
 
-using Points = std::span<const glm::dvec3>;  // pointsPerPatch(kind) points
+using Points = std::span<const glm::dvec3>;  // pointsPerPatch(kind) points; of a pn triangle its positions alone will do
+using Weights = std::span<const double>;     // of a rational patch, one a point; empty: all 1
 using Net = std::array<glm::dvec3, 16>;      // of a bicubic patch, number 4 v + u
 
 struct SurfacePoint {
@@ -65,18 +72,28 @@ inline constexpr std::array<std::size_t, 4> blendSlot{5, 6, 10, 9};
 // The bicubic net of a Gregory patch with the four blended points given.
 [[nodiscard]] Net gregoryNet(Points gregory, const std::array<glm::dvec3, 4>& blended);
 
-// Surface and derivatives at (u, v), both 0 to 1.
-[[nodiscard]] SurfacePoint evaluate(PatchKind kind, Points points, double u, double v);
+// The bicubic net, over the whole unit square, of a pn triangle's polynomial.
+[[nodiscard]] Net pnNet(Points pn);
+
+// Surface and derivatives at (u, v), both 0 to 1; of a pn triangle u + v <= 1.
+[[nodiscard]] SurfacePoint evaluate(PatchKind kind, Points points, double u, double v, Weights weights = {});
 
 // The unit vector along du x dv. Where that vanishes (a pole, a corner with parallel tangents): its limit on the straight way
 // from the patch's middle in (u, v). Zero when the patch has no area there either.
-[[nodiscard]] glm::dvec3 unitNormal(PatchKind kind, Points points, double u, double v);
+[[nodiscard]] glm::dvec3 unitNormal(PatchKind kind, Points points, double u, double v, Weights weights = {});
+
+// The unit normal that a picture shows: of a pn triangle, with its normals, the quadratic field, of everything else and where that
+// field vanishes unitNormal().
+[[nodiscard]] glm::dvec3 shadingNormal(PatchKind kind, Points points, double u, double v, Weights weights = {});
 
 // The Gregory patch, with f+ = f-, that is the same surface as a Bezier patch.
 [[nodiscard]] std::array<glm::dvec3, 20> gregoryFromBezier(Points bezier);
 
 // The points of one patch of a mesh, in the mesh's own coordinates.
 [[nodiscard]] std::vector<glm::dvec3> patchPoints(const Mesh& mesh, std::size_t patch);
+
+// The weights of one patch of a mesh; empty unless it is rational.
+[[nodiscard]] std::vector<double> patchWeights(const Mesh& mesh, std::size_t patch);
 
 // Diagonal of the box around the points.
 [[nodiscard]] double patchSize(Points points);

@@ -16,7 +16,8 @@ namespace {
 Pixel castPixel(const RayCaster& caster, const Ray& ray, double near) {
     const std::optional<Hit> hit = caster.cast(ray, near);
     if (!hit) return {};
-    return {true, hit->t, glm::dot(hit->normal, ray.direction) > 0.0 ? -hit->normal : hit->normal, *hit};
+    const glm::dvec3& normal = hit->shadingNormal;
+    return {true, hit->t, glm::dot(normal, ray.direction) > 0.0 ? -normal : normal, *hit};
 }
 
 // Calls row(y) for 0 <= y < count from several threads; throws what one of them threw.

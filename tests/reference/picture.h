@@ -12,7 +12,7 @@ namespace tessera::reference {
 struct Pixel {
     bool covered = false;
     double z = std::numeric_limits<double>::infinity();  // distance along the view axis
-    glm::dvec3 normal{0.0};                              // unit, world space, towards the viewer; zero where there is none
+    glm::dvec3 normal{0.0};                              // for shading; unit, world space, towards the viewer; zero where there is none
     Hit hit;                                             // valid when covered
 };
 

@@ -80,14 +80,17 @@ void RayCaster::addObject(const Scene& scene, std::size_t object) {
         if (mesh.name != scene.objects[object].mesh) continue;
         for (std::size_t patch = 0; patch < mesh.patchCount(); ++patch) {
             std::vector<glm::dvec3> points = patchPoints(mesh, patch);
-            for (glm::dvec3& point : points) point = place(point);
-            placed_.push_back({object, patch, makeShape(mesh.kind, std::move(points))});
+            const std::size_t positions = positionsPerPatch(mesh.kind);
+            for (std::size_t i = 0; i < points.size(); ++i) points[i] = i < positions ? place(points[i]) : place.rotation * points[i];
+            placed_.push_back({object, patch, makeShape(mesh.kind, points, patchWeights(mesh, patch)), points});
         }
         return;
     }
 }
 
 void RayCaster::addLeaves(std::size_t placed, const Piece& piece, int levels) {
+    const glm::dvec2& corner = piece.rectangle.lower;
+    if (placed_[placed].shape.kind == PatchKind::pn && corner.x + corner.y >= 1.0) return;
     if (levels == 0) {
         leaves_.push_back({placed, piece, boxOf(enclose(placed_[placed].shape, piece))});
         return;
@@ -154,15 +157,16 @@ std::optional<Hit> RayCaster::lookInto(const Leaf& leaf, const Ray& unitRay, dou
     const PlacedPatch& placed = placed_[leaf.placed];
     const RayFrame frame = rayFrame(unitRay.origin, unitRay.direction);
     const PatchShape shape = transformed(placed.shape, frame.linear, frame.origin);
-    Piece piece = leaf.piece;
-    for (glm::dvec3& point : piece.net) point = frame.linear * (point - frame.origin);
+    const Piece piece = transformed(leaf.piece, frame.linear, frame.origin);
     const std::optional<Root> root = nearestRoot(shape, piece, {nearest, farthest, residualOfSize * size_});
     if (!root) return std::nullopt;
     const double u = root->parameters.x;
     const double v = root->parameters.y;
-    const glm::dvec3 point = evaluate(placed.shape.kind, placed.shape.points, u, v).position;
-    const glm::dvec3 normal = unitNormal(placed.shape.kind, placed.shape.points, u, v);
-    return Hit{root->distance, point, placed.object, placed.patch, u, v, normal, root->residual};
+    const Weights weights = placed.shape.weights;
+    const glm::dvec3 point = evaluate(placed.shape.kind, placed.points, u, v, weights).position;
+    const glm::dvec3 normal = unitNormal(placed.shape.kind, placed.points, u, v, weights);
+    const glm::dvec3 shading = shadingNormal(placed.shape.kind, placed.points, u, v, weights);
+    return Hit{root->distance, point, placed.object, placed.patch, u, v, normal, shading, root->residual};
 }
 
 }  // namespace tessera::reference

@@ -26,8 +26,9 @@ struct Hit {
     std::size_t patch = 0;   // index into the object's mesh
     double u = 0.0;
     double v = 0.0;
-    glm::dvec3 normal{0.0};  // unit du x dv in world space, whichever way it points; zero where the surface has none
-    double residual = 0.0;   // distance of the surface point from the ray: at most 1e-12 of the scene's size
+    glm::dvec3 normal{0.0};         // unit du x dv in world space, whichever way it points; zero where the surface has none
+    glm::dvec3 shadingNormal{0.0};  // what a picture shows in its place: another one on pn triangles
+    double residual = 0.0;          // distance of the surface point from the ray: at most 1e-12 of the scene's size
 };
 
 // An object's rotation and translation, from its quaternion of any length.
@@ -52,7 +53,8 @@ public:
 private:
     struct PlacedPatch {
         std::size_t object, patch;
-        PatchShape shape;  // in world space
+        PatchShape shape;                // in world space
+        std::vector<glm::dvec3> points;  // in world space, of a pn triangle with its normals behind
     };
     struct Leaf {
         std::size_t placed;

@@ -1,4 +1,5 @@
-// Subdivision until a piece provably holds at most one root, then Newton's method on the patch itself.
+// Subdivision until a piece provably holds at most one root, then Newton's method on the patch itself. The ray is where x = y = 0, and
+// so where x and y times a weight above 0 are: of rational patches both steps look at these, which are polynomials.
 #include "root_search.h"
 
 #include <algorithm>
@@ -89,16 +90,17 @@ double longestStep(const Net& net, std::size_t stride) {
 
 class Search {
 public:
-    Search(const PatchShape& shape, const SearchLimits& limits) : shape_(shape), limits_(limits) {}
+    Search(const PatchShape& shape, const SearchLimits& limits) : shape_(shape), limits_(limits), whole_(wholePiece(shape).net) {}
 
     void visit(const Piece& piece) {
+        if (outside(piece.rectangle)) return;
         if (++visited_ > mostPieces) throw std::runtime_error("reference ray caster: the search on a patch does not end");
         const Enclosure enclosure = enclose(shape_, piece);
         const Box box = boxOf(enclosure);
         const double slack = limits_.tolerance;
         if (box.lower.x > slack || box.upper.x < -slack || box.lower.y > slack || box.upper.y < -slack) return;
         if (box.upper.z <= limits_.nearest || box.lower.z >= nearest()) return;
-        const Straightened map = straighten(enclosure, slack);
+        const Straightened map = straighten(enclosure, slack * greatestWeight(enclosure));
         if (!map.mayHoldRoot) return;
         if (map.regular && map.variation <= certainVariation) return keep(polish(piece.rectangle));
         if (tiny(box, piece.rectangle)) return keep(rootAt(piece.rectangle.middle()));
@@ -109,6 +111,11 @@ public:
 
 private:
     [[nodiscard]] double nearest() const { return best_ ? best_->distance : limits_.farthest; }
+
+    // Whether a piece has no inner point of the patch.
+    [[nodiscard]] bool outside(const Rectangle& rectangle) const {
+        return shape_.kind == PatchKind::pn && rectangle.lower.x + rectangle.lower.y >= 1.0;
+    }
 
     // A piece that a single point stands for. The second case ends the search on patches without any width.
     [[nodiscard]] bool tiny(const Box& box, const Rectangle& rectangle) const {
@@ -125,16 +132,24 @@ private:
         visit(firstIsNearer ? second : first);
     }
 
-    [[nodiscard]] Root rootAt(const glm::dvec2& at) const {
-        const glm::dvec3 position = evaluate(shape_.kind, shape_.points, at.x, at.y).position;
+    // A root of a triangle's polynomial beyond its third border is none, unless the border's nearest point is as good: what lies on
+    // a border must not be missed from both sides. keep() asks for that.
+    [[nodiscard]] Root rootAt(glm::dvec2 at) const {
+        if (shape_.kind == PatchKind::pn) at -= 0.5 * std::max(0.0, at.x + at.y - 1.0);
+        const glm::dvec3 position = evaluate(shape_.kind, shape_.points, at.x, at.y, shape_.weights).position;
         return {position.z, at, glm::length(flat(position))};
+    }
+
+    [[nodiscard]] SurfacePoint polynomial(const glm::dvec2& at) const {
+        if (shape_.kind == PatchKind::gregory) return evaluate(PatchKind::gregory, shape_.points, at.x, at.y);
+        return evaluate(PatchKind::bezier, whole_, at.x, at.y);
     }
 
     // Newton's method from the middle, kept inside the rectangle.
     [[nodiscard]] Root polish(const Rectangle& rectangle) const {
         glm::dvec2 at = rectangle.middle();
         for (int step = 0; step < 100; ++step) {
-            const SurfacePoint s = evaluate(shape_.kind, shape_.points, at.x, at.y);
+            const SurfacePoint s = polynomial(at);
             const glm::dmat2 derivative(flat(s.du), flat(s.dv));
             if (glm::determinant(derivative) == 0.0) break;
             const glm::dvec2 next = glm::clamp(at - glm::inverse(derivative) * flat(s.position), rectangle.lower, rectangle.upper);
@@ -151,6 +166,7 @@ private:
 
     const PatchShape& shape_;
     const SearchLimits& limits_;
+    Net whole_;
     std::optional<Root> best_;
     int visited_ = 0;
 };

@@ -50,6 +50,30 @@ Mesh parted(const Mesh& gregory, double distance, std::uint64_t seed) {
     return mesh;
 }
 
+Mesh weighted(const Mesh& bezier, double factor, std::uint64_t seed) {
+    Random random(seed);
+    Mesh mesh{bezier.name, PatchKind::rational, bezier.points};
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+        mesh.weights.push_back(static_cast<float>(std::pow(factor, random.between(-1.0, 1.0))));
+    return mesh;
+}
+
+Mesh bumpyPnMesh(std::uint64_t seed, std::size_t patches) {
+    Random random(seed);
+    Mesh mesh{"", PatchKind::pn, {}};
+    for (std::size_t patch = 0; patch < patches; ++patch) {
+        const glm::dvec3 along = glm::normalize(random.inCube(1.0) + glm::dvec3(1e-3));
+        const glm::dvec3 up = glm::normalize(glm::cross(along, random.inCube(1.0) + glm::dvec3(0, 1e-3, 0)));
+        const glm::dvec3 other = glm::cross(up, along);
+        const glm::dvec3 center = patches == 1 ? glm::dvec3(0.0) : random.inCube(1.0);
+        for (int j = 0; j < 4; ++j)
+            for (int i = 0; i + j < 4; ++i)
+                mesh.points.emplace_back(center + (0.5 * i - 0.5) * along + (0.5 * j - 0.5) * other + random.inCube(0.3));
+        for (int k = 0; k < 6; ++k) mesh.points.emplace_back(up + random.inCube(0.4));
+    }
+    return mesh;
+}
+
 Scene sceneOf(std::vector<Mesh> meshes) {
     Scene scene;
     scene.name = "sample";

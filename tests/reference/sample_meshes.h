@@ -30,6 +30,13 @@ private:
 // f+ and f- moved apart by up to `distance` each: blends that are truly rational.
 [[nodiscard]] Mesh parted(const Mesh& gregory, double distance, std::uint64_t seed);
 
+// The same nets as rational patches, each weight 1 / factor to factor.
+[[nodiscard]] Mesh weighted(const Mesh& bezier, double factor, std::uint64_t seed);
+
+// Bumpy cubic triangles with normals that lean anyhow, less than half a right angle from the triangle's own, placed like
+// bumpyBezierMesh()'s patches.
+[[nodiscard]] Mesh bumpyPnMesh(std::uint64_t seed, std::size_t patches);
+
 // One object a mesh, all without rotation, at the origin; meshes are named "mesh0", "mesh1", ...
 [[nodiscard]] Scene sceneOf(std::vector<Mesh> meshes);
 
