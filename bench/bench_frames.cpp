@@ -2,6 +2,7 @@
 #include "bench_frames.h"
 
 #include "tessera/error.h"
+#include "tessera/weld.h"
 
 #include <benchmark/benchmark.h>
 
@@ -63,15 +64,39 @@ double measureFrame(const Statistics& s, benchmark::State& state) {
     return s.frameMs;
 }
 
-RenderOptions frameOptions(SplitMethod method, int pixelSamples) {
+RenderOptions frameOptions(DiceMode mode, SplitMethod method, int pixelSamples) {
     RenderOptions options;
-    options.mode = DiceMode::classical;
+    options.mode = mode;
     options.width = 1280;
     options.height = 720;
     options.diceRate = 8;
     options.pixelSamples = pixelSamples;
     options.method = method;
     return options;
+}
+
+// What watertightness costs: a classical frame and a watertight one in turn. Micropolygons are at most a pixel long in both.
+void addCost(FrameSource& frames, const SceneSource& scene) {
+    const std::string benchmarkName = "cost/" + scene.name;
+    const auto run = [&frames, &scene, benchmarkName](benchmark::State& state) {
+        try {
+            for ([[maybe_unused]] auto _ : state) {
+                const RenderOptions classical = frameOptions(DiceMode::classical, SplitMethod::bounded, 1);
+                const RenderOptions watertight = frameOptions(DiceMode::watertight, SplitMethod::bounded, 1);
+                const Statistics before = frames.render(scene, classical, benchmarkName);
+                const Statistics after = frames.render(scene, watertight, benchmarkName);
+                state.counters["frame_ratio"] = after.frameMs / before.frameMs;
+                state.counters["split_ratio"] = after.splitMs / before.splitMs;
+                state.counters["classical_ms"] = before.frameMs;
+                state.counters["Kmicropolygons"] = static_cast<double>(after.micropolygons) / 1000.0;
+                state.counters["classical_Kmicropolygons"] = static_cast<double>(before.micropolygons) / 1000.0;
+                state.SetIterationTime(after.frameMs / 1000.0);
+            }
+        } catch (const std::exception& error) {
+            state.SkipWithError(error.what());
+        }
+    };
+    benchmark::RegisterBenchmark(benchmarkName.c_str(), run)->UseManualTime()->Iterations(1)->Unit(benchmark::kMillisecond);
 }
 
 void add(FrameSource& frames, const std::string& benchmarkName, const SceneSource& scene, const RenderOptions& options, Measure measure) {
@@ -95,7 +120,8 @@ Statistics FrameSource::render(const SceneSource& scene, const RenderOptions& op
     if (!renderer_) renderer_ = std::make_unique<Renderer>(settings_);
     if (sceneName_ != scene.name) {
         sceneName_.clear();
-        const Scene made = scene.make();
+        Scene made = scene.make();
+        weld(made);
         camera_ = made.cameras.empty() ? framingCamera(made, Camera{}.fovy) : made.cameras.front();
         renderer_->setScene(made);
         sceneName_ = scene.name;
@@ -109,14 +135,20 @@ Statistics FrameSource::render(const SceneSource& scene, const RenderOptions& op
 
 void registerBenchmarks(FrameSource& frames, const std::vector<SceneSource>& scenes) {
     for (const SceneSource& scene : scenes) {
-        for (const SplitMethod method : {SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded}) {
-            add(frames, "split/" + scene.name + "/" + std::string(name(method)), scene, frameOptions(method, 1), measureSplit);
+        for (const DiceMode mode : {DiceMode::watertight, DiceMode::classical}) {
+            // Classical mode knows no rational patches and triangles.
+            if (mode == DiceMode::classical && !scene.classical) continue;
+            const std::string ending = "/" + scene.name + "/" + std::string(name(mode));
+            for (const SplitMethod method : {SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded}) {
+                add(frames, "split" + ending + "/" + std::string(name(method)), scene, frameOptions(mode, method, 1), measureSplit);
+            }
+            const RenderOptions one = frameOptions(mode, SplitMethod::bounded, 1);
+            add(frames, "dice" + ending, scene, one, measureDice);
+            add(frames, "shade" + ending, scene, one, measureShade);
+            add(frames, "frame" + ending, scene, one, measureFrame);
+            add(frames, "frame16" + ending, scene, frameOptions(mode, SplitMethod::bounded, 4), measureFrame);
         }
-        const RenderOptions one = frameOptions(SplitMethod::bounded, 1);
-        add(frames, "dice/" + scene.name, scene, one, measureDice);
-        add(frames, "shade/" + scene.name, scene, one, measureShade);
-        add(frames, "frame/" + scene.name, scene, one, measureFrame);
-        add(frames, "frame16/" + scene.name, scene, frameOptions(SplitMethod::bounded, 4), measureFrame);
+        if (scene.classical) addCost(frames, scene);
     }
 }
 

@@ -12,7 +12,7 @@ std::vector<SceneSource> sceneSources(const std::string& folder) {
     std::vector<SceneSource> sources;
     for (const std::string_view name : builtinSceneNames()) {
         // A file may have the same name: both are measured.
-        sources.push_back({"builtin_" + std::string(name), [name] { return builtinScene(name); }});
+        sources.push_back({"builtin_" + std::string(name), [name] { return builtinScene(name); }, name == "teapot"});
     }
     sources.push_back({"made_teapots", [] { return teapotGrid(12, 8); }});
     sources.push_back({"made_strands", [] { return strands(20000); }});

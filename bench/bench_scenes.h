@@ -13,6 +13,7 @@ namespace tessera::bench {
 struct SceneSource {
     std::string name;
     std::function<Scene()> make;
+    bool classical = true;  // whether classical mode draws it: Bezier and Gregory patches alone
 };
 
 // Built-in scenes, generated ones and the .mscene files of `folder` (none when it does not exist), in a fixed order.

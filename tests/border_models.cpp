@@ -18,7 +18,7 @@ struct Curve {
 
 std::uint32_t below(Random& random, std::uint32_t end) { return static_cast<std::uint32_t>(random.unit() * end); }
 
-glm::vec3 anyPoint(Random& random) { return glm::vec3(random.inCube(1.0)); }
+glm::vec3 anyPoint(Random& random) { return {random.inCube(1.0)}; }
 
 float anyWeight(Random& random) { return static_cast<float>(std::pow(3.0, random.between(-1.0, 1.0))); }
 

@@ -268,31 +268,38 @@ Camera randomView(const Scene& scene, ViewKind kind, std::uint64_t seed) {
     const glm::dvec3 middle = 0.5 * (glm::dvec3(bounds.lower) + glm::dvec3(bounds.upper));
     const Spot spot = anySpot(scene, middle, random);
     const glm::dvec3 away = anyDirection(random);
+    // Each number is drawn in a statement of its own: compilers differ in the order of arguments.
+    double fovy = 30.0;
+    glm::dvec3 direction = away;
     switch (kind) {
         case ViewKind::far:
-            return rolled(middle + random.between(6.0, 30.0) * away, random.inCube(0.5) - away, 30.0, random);
+            direction = random.inCube(0.5) - away;
+            return rolled(middle + random.between(6.0, 30.0) * away, direction, fovy, random);
         case ViewKind::near:
-            return rolled(spot.point + random.between(0.3, 1.5) * spot.outward, random.inCube(0.5) - spot.outward,
-                          random.between(30.0, 80.0), random);
-        case ViewKind::grazing: {
-            const glm::dvec3 along = glm::normalize(glm::cross(spot.outward, away));
-            return rolled(spot.point + random.between(0.02, 0.15) * spot.outward, along - random.between(0.0, 0.3) * spot.outward, 60.0,
-                          random);
-        }
+            fovy = random.between(30.0, 80.0);
+            direction = random.inCube(0.5) - spot.outward;
+            return rolled(spot.point + random.between(0.3, 1.5) * spot.outward, direction, fovy, random);
+        case ViewKind::grazing:
+            direction = glm::normalize(glm::cross(spot.outward, away)) - random.between(0.0, 0.3) * spot.outward;
+            return rolled(spot.point + random.between(0.02, 0.15) * spot.outward, direction, 60.0, random);
         case ViewKind::throughNearPlane: {
             const double near = random.between(0.1, 0.6);
             // Not away from the solid, where nothing would be seen.
-            const glm::dvec3 look = glm::dot(away, spot.outward) > 0.3 ? -away : away;
-            Camera camera = rolled(spot.point + random.between(-0.5, 0.5) * near * spot.outward, look, random.between(50.0, 100.0), random);
+            if (glm::dot(away, spot.outward) > 0.3) direction = -away;
+            fovy = random.between(50.0, 100.0);
+            Camera camera = rolled(spot.point + random.between(-0.5, 0.5) * near * spot.outward, direction, fovy, random);
             camera.near = static_cast<float>(near);
             return camera;
         }
         case ViewKind::inside:
-            return rolled(middle + random.inCube(0.2), away, random.between(40.0, 100.0), random);
+            fovy = random.between(40.0, 100.0);
+            return rolled(middle + random.inCube(0.2), direction, fovy, random);
         case ViewKind::aside:
             break;
     }
-    return rolled(middle + random.between(0.5, 4.0) * away, random.inCube(1.5) - away, random.between(20.0, 90.0), random);
+    fovy = random.between(20.0, 90.0);
+    direction = random.inCube(1.5) - away;
+    return rolled(middle + random.between(0.5, 4.0) * away, direction, fovy, random);
 }
 
 }  // namespace tessera::test

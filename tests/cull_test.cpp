@@ -74,7 +74,9 @@ Missing missingFrom(const Kept& drawn, const reference::Picture& exact, double n
             };
             if (!allAround(x, y, showsIt)) continue;
             seen.insert(patch);
-            if (showsWithin(drawn, x, y, reach, patch)) continue;
+            // The tip of a nearer sheet may cover a pixel's middle with a chord where the curve passes by it.
+            const bool hidden = drawn.covered(x, y) && static_cast<double>(drawn.z(x, y)) < exact.at(x + 1, y + 1).z;
+            if (showsWithin(drawn, x, y, reach, patch) || (hidden && drawnAt(drawn, x, y) != patch)) continue;
             if (missing.pixels++ == 0) {
                 missing.first = "patch " + std::to_string(patch.second) + " of object " + std::to_string(patch.first) + " at (" +
                                 std::to_string(x) + ", " + std::to_string(y) + ")";

@@ -1,6 +1,7 @@
 // Watertight to the bit, on the device: neighbours draw the same vertices along their borders, whatever their kinds, directions, levels and
 // rates; and around closed models nothing stays open, by any method.
 #include "border_models.h"
+#include "border_segments.h"
 #include "closed_models.h"
 #include "quad_rig.h"
 #include "split_adversary.h"
@@ -25,7 +26,6 @@ namespace tessera::splitting {
 namespace {
 
 using reference::Random;
-using Position = std::array<std::uint32_t, 3>;
 
 std::uint32_t below(Random& random, std::uint32_t end) { return static_cast<std::uint32_t>(random.unit() * end); }
 
@@ -71,46 +71,6 @@ Diced diceAll(QuadRig& rig, std::uint32_t p = 1000) {
 void countRates(const Diced& diced, std::array<std::size_t, 8>& rates) {
     for (const quad_range& range : diced.ranges)
         for (std::uint32_t k = 0; k < 4; ++k) ++rates.at(byteOf(range.rates, k));
-}
-
-// Segments between vertices that differ, and how often each was walked: forward less backward, and in all.
-struct Segment {
-    std::array<Position, 2> ends{};
-    int direction = 0;
-    int times = 0;
-};
-
-std::vector<Segment> segmentsOf(const std::vector<Border>& borders) {
-    std::vector<Segment> walked;
-    for (const Border& border : borders) {
-        for (std::size_t k = 0; k < border.size(); ++k) {
-            const Position& a = border[k].position;
-            const Position& b = border[(k + 1) % border.size()].position;
-            if (a < b) walked.push_back({{a, b}, 1, 1});
-            if (b < a) walked.push_back({{b, a}, -1, 1});
-        }
-    }
-    std::sort(walked.begin(), walked.end(), [](const Segment& a, const Segment& b) { return a.ends < b.ends; });
-    std::vector<Segment> sums;
-    for (const Segment& one : walked) {
-        if (sums.empty() || sums.back().ends != one.ends) {
-            sums.push_back(one);
-        } else {
-            sums.back().direction += one.direction;
-            ++sums.back().times;
-        }
-    }
-    return sums;
-}
-
-std::size_t openSegments(const Diced& diced) {
-    const std::vector<Segment> segments = segmentsOf(diced.borders);
-    return static_cast<std::size_t>(std::count_if(segments.begin(), segments.end(), [](const Segment& s) { return s.times % 2 != 0; }));
-}
-
-std::size_t unorientedSegments(const Diced& diced) {
-    const std::vector<Segment> segments = segmentsOf(diced.borders);
-    return static_cast<std::size_t>(std::count_if(segments.begin(), segments.end(), [](const Segment& s) { return s.direction != 0; }));
 }
 
 // The vertices that one side draws on the shared border, by their place on its curve. Fails where a place has two.
@@ -279,8 +239,8 @@ TEST(EdgeBits, ClosedModelsHaveNoOpenSegment) {
             const Diced diced = diceAll(rig);
             SCOPED_TRACE(model.name + ", view " + std::to_string(view) + ", grid " + std::to_string(options.gridSize) + ", rate " +
                          std::to_string(options.shadingRate));
-            EXPECT_EQ(openSegments(diced), 0U);
-            EXPECT_TRUE(!isOriented(model.name) || unorientedSegments(diced) == 0);
+            EXPECT_EQ(openSegments(diced.borders), 0U);
+            EXPECT_TRUE(!isOriented(model.name) || unorientedSegments(diced.borders) == 0);
             expectOutlines(rig, diced);
             countRates(diced, counts.rates);
         }
@@ -306,7 +266,7 @@ TEST(EdgeBits, WeldedModelsHaveNoOpenSegment) {
         for (int view = 0; view < 3; ++view) {
             rig.place(scene, wholeView(scene, random), optionsOf(random.between(1.0, 20.0), random));
             const Diced diced = diceAll(rig);
-            EXPECT_EQ(openSegments(diced), 0U) << "run " << run << ", view " << view;
+            EXPECT_EQ(openSegments(diced.borders), 0U) << "run " << run << ", view " << view;
             expectOutlines(rig, diced);
         }
     }
@@ -388,7 +348,7 @@ TEST(EdgeBits, RatesMadeToDoHarmOpenNothing) {
             rig.place(model.scene, wholeView(model.scene, random), optionsOf(4.0, random));
             rig.setLevelMost(level);
             const Diced diced = diceAll(rig);
-            EXPECT_EQ(openSegments(diced), 0U) << model.name << ", level " << level;
+            EXPECT_EQ(openSegments(diced.borders), 0U) << model.name << ", level " << level;
             for (const quad_range& range : diced.ranges) {
                 ASSERT_LE(std::max(byteOf(range.sizes, 0), byteOf(range.sizes, 1)), level);
                 cutsMost = std::max(cutsMost, cutsOf(range));

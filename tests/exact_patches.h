@@ -54,8 +54,10 @@ double integral(const Mesh& mesh, int steps, Value value) {
     double total = 0.0;
     for (std::size_t patch = 0; patch < mesh.patchCount(); ++patch) {
         for (int i = 0; i < steps * steps; ++i) {
-            const double u = (i % steps + 0.5) / steps;
-            const double v = (static_cast<double>(i / steps) + 0.5) / steps;
+            const int column = i % steps;
+            const int row = i / steps;
+            const double u = (column + 0.5) / steps;
+            const double v = (row + 0.5) / steps;
             total += value(patchPoint(mesh, patch, u, v)) / steps / steps;
         }
     }

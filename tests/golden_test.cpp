@@ -24,6 +24,7 @@ constexpr int height = 90;
 
 struct Subject {
     std::string name;
+    DiceMode mode;
     Scene scene;
     Camera camera;
 };
@@ -58,7 +59,7 @@ TEST_P(Golden, ThePictureLooksAsItDid) {
     Renderer renderer(testSettings());
     renderer.setScene(subject.scene);
     RenderOptions options;
-    options.mode = DiceMode::classical;
+    options.mode = subject.mode;
     options.width = width;
     options.height = height;
     options.background = {0.18F, 0.2F, 0.24F, 1.0F};
@@ -87,13 +88,13 @@ TEST_P(Golden, ThePictureLooksAsItDid) {
 
 Subject teapot() {
     const Scene scene = builtinScene("teapot");
-    return {"teapot", scene, scene.cameras.front()};
+    return {"teapot", DiceMode::classical, scene, scene.cameras.front()};
 }
 
 // Bezier and Gregory patches, matte and plastic, a sun and a sky.
 Subject mixed() {
     const Scene scene = mixedScene();
-    return {"mixed", scene, scene.cameras.front()};
+    return {"mixed", DiceMode::classical, scene, scene.cameras.front()};
 }
 
 // The inside of the same, from among the patches: cut off at the near plane.
@@ -101,10 +102,18 @@ Subject within() {
     const Scene scene = mixedScene();
     Camera camera = reference::cameraAt({0.3, 0.3, 1.2}, {0, 0, -0.2}, 70);
     camera.near = 0.3F;
-    return {"within", scene, camera};
+    return {"within", DiceMode::classical, scene, camera};
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Golden, testing::Values(teapot(), mixed(), within()),
+// What a user sees first of each kind of patch.
+Subject watertight(const std::string& builtin) {
+    const Scene scene = builtinScene(builtin);
+    return {"watertight_" + builtin, DiceMode::watertight, scene, scene.cameras.front()};
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Golden,
+                         testing::Values(teapot(), mixed(), within(), watertight("teapot"), watertight("sphere"), watertight("torus"),
+                                         watertight("quadrics"), watertight("nurbs"), watertight("pn")),
                          [](const auto& tested) { return tested.param.name; });
 
 }  // namespace

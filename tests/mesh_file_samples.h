@@ -58,14 +58,14 @@ inline std::string base64(std::span<const std::byte> bytes) {
 inline std::string gltfText(const std::string& nodes, const std::string& roots = "0", const std::string& more = "") {
     std::vector<float> numbers{0.0F, 0.0F, 0.0F, 1.0F, 0.0F, 0.0F, 0.0F, 1.0F, 0.0F};
     for (int k = 0; k < 3; ++k) numbers.insert(numbers.end(), {0.6F, 0.0F, 0.8F});
-    return "{\"asset\":{\"version\":\"2.0\"},\"scene\":0,\"scenes\":[{\"nodes\":[" + roots + "]}],\"nodes\":[" + nodes + "]," + more +
-           "\"meshes\":[{\"name\":\"leaf\",\"primitives\":[{\"attributes\":{\"POSITION\":0,\"NORMAL\":1},\"material\":0}]}],"
-           "\"materials\":[{\"name\":\"m\",\"pbrMetallicRoughness\":{\"baseColorFactor\":[0.25,0.5,0.75,1]}}],"
-           "\"accessors\":[{\"bufferView\":0,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\",\"min\":[0,0,0],\"max\":[1,1,0]},"
-           "{\"bufferView\":0,\"byteOffset\":36,\"componentType\":5126,\"count\":3,\"type\":\"VEC3\"}],"
-           "\"bufferViews\":[{\"buffer\":0,\"byteLength\":72}],"
-           "\"buffers\":[{\"byteLength\":72,\"uri\":\"data:application/octet-stream;base64," +
-           base64(std::as_bytes(std::span(numbers))) + "\"}]}";
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[)" + roots + R"(]}],"nodes":[)" + nodes + "]," + more +
+           R"("meshes":[{"name":"leaf","primitives":[{"attributes":{"POSITION":0,"NORMAL":1},"material":0}]}],)"
+           R"("materials":[{"name":"m","pbrMetallicRoughness":{"baseColorFactor":[0.25,0.5,0.75,1]}}],)"
+           R"("accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},)"
+           R"({"bufferView":0,"byteOffset":36,"componentType":5126,"count":3,"type":"VEC3"}],)"
+           R"("bufferViews":[{"buffer":0,"byteLength":72}],)"
+           R"("buffers":[{"byteLength":72,"uri":"data:application/octet-stream;base64,)" +
+           base64(std::as_bytes(std::span(numbers))) + R"("}]})";
 }
 
 // Files by name, whose endings tell their formats.
@@ -74,7 +74,7 @@ inline std::map<std::string, std::string> meshFileSamples() {
             {"file.ply", plyText()},
             {"file.stl", stlText()},
             {"file.off", offText()},
-            {"file.gltf", gltfText("{\"name\":\"n\",\"mesh\":0,\"scale\":[2,2,2]}")}};
+            {"file.gltf", gltfText(R"({"name":"n","mesh":0,"scale":[2,2,2]})")}};
 }
 
 // What reading says of `text`; empty where it gives a scene.

@@ -21,21 +21,23 @@ constexpr double kFloat = 1e-6;
 
 // A folder of its own that goes with the test.
 class MeshFile : public ::testing::Test {
+public:
+    MeshFile(const MeshFile&) = delete;
+    MeshFile& operator=(const MeshFile&) = delete;
+    ~MeshFile() override {
+        std::error_code ignored;
+        std::filesystem::remove_all(folder_, ignored);
+    }
+
 protected:
     MeshFile() {
         folder_ = std::filesystem::temp_directory_path() /
                   ("tessera_mesh_" + std::to_string(::getpid()) + "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name());
         std::filesystem::create_directories(folder_);
     }
-    ~MeshFile() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-    MeshFile(const MeshFile&) = delete;
-    MeshFile& operator=(const MeshFile&) = delete;
 
     [[nodiscard]] std::filesystem::path write(const std::string& fileName, const std::string& text) const {
-        const std::filesystem::path path = folder_ / fileName;
+        std::filesystem::path path = folder_ / fileName;
         std::filesystem::create_directories(path.parent_path());
         std::ofstream(path, std::ios::binary) << text;
         return path;
@@ -67,7 +69,7 @@ Scene parseGltf(const std::string& nodes, const std::string& roots = "0", const 
 // A mesh's point in the world.
 glm::dvec3 placed(const Scene& scene, std::size_t object, std::size_t point) {
     const Object& placing = scene.objects[object];
-    return glm::dvec3(matrix(placing.transform) * glm::dvec4(scene.findMesh(placing.mesh)->points[point], 1.0));
+    return {matrix(placing.transform) * glm::dvec4(scene.findMesh(placing.mesh)->points[point], 1.0)};
 }
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b) {
@@ -233,7 +235,7 @@ TEST(MeshFileLights, KindsPlacesAndStrengthsAreRead) {
     std::vector<std::string> warnings;
     const Scene scene =
         parse(gltfText(R"({"mesh":0},{"name":"sun","rotation":[-0.70710678,0,0,0.70710678],)" + light +
-                           "0}}},{\"name\":\"bulb\",\"translation\":[1,2,3]," + light + "1}}},{\"name\":\"lamp\"," + light + "2}}}",
+                           R"(0}}},{"name":"bulb","translation":[1,2,3],)" + light + R"(1}}},{"name":"lamp",)" + light + "2}}}",
                        "0,1,2,3",
                        R"("extensionsUsed":["KHR_lights_punctual"],"extensions":{"KHR_lights_punctual":{"lights":[
                        {"type":"directional","color":[1,0.5,0],"intensity":3},{"type":"point","color":[1,1,1],"intensity":40},
@@ -253,6 +255,13 @@ TEST(MeshFileLights, KindsPlacesAndStrengthsAreRead) {
     EXPECT_NE(warnings[0].find("'lamp' is a spot"), std::string::npos) << warnings[0];
 }
 
+TEST(MeshFileRepairs, TellOfNormalsThatCannotBeUsed) {
+    std::vector<std::string> warnings;
+    static_cast<void>(parse("v 0 0 0\nv 1 0 0\nv 0 1 0\nvn 0 0 0\nvn 0 0 1\nf 1//1 2//2 3//2\n", "file.obj", false, &warnings));
+    ASSERT_EQ(warnings.size(), 1U);
+    EXPECT_NE(warnings[0].find("computed by angle: 1"), std::string::npos) << warnings[0];
+}
+
 TEST(MeshFileRepairs, AreTold) {
     std::vector<std::string> warnings;
     const Scene scene =
@@ -260,7 +269,7 @@ TEST(MeshFileRepairs, AreTold) {
     EXPECT_EQ(scene.placedPatchCount(), 2U);
     ASSERT_EQ(warnings.size(), 1U);
     for (const std::string part :
-         {"file.obj: mesh ", "1 triangles left out as duplicates", "1 triangles left out for two corners", "1 triangles turned"}) {
+         {"file.obj: mesh ", "left out as duplicates: 1", "left out for two corners in one place: 1", "neighbours: 1"}) {
         EXPECT_NE(warnings[0].find(part), std::string::npos) << warnings[0];
     }
 }

@@ -46,7 +46,8 @@ inline Mesh rationalMesh(const std::string& name, int count) {
     mesh.name = name;
     mesh.kind = PatchKind::rational;
     for (int i = 0; i < 16 * count; ++i) {
-        mesh.points.emplace_back(static_cast<float>(i % 4) * 0.7F, static_cast<float>(i / 4), static_cast<float>(i % 3) * 0.2F);
+        const int row = i / 4;
+        mesh.points.emplace_back(static_cast<float>(i % 4) * 0.7F, static_cast<float>(row), static_cast<float>(i % 3) * 0.2F);
         mesh.weights.push_back(0.25F + static_cast<float>(i % 16) * 0.125F);
     }
     return mesh;

@@ -13,7 +13,7 @@ namespace tessera::splitting {
 namespace {
 
 // Vertices around the largest grid, a multiple of any number of lanes.
-constexpr std::size_t borderPlaces = 4 * 32;
+constexpr std::size_t borderPlaces = std::size_t{4} * 32;
 // Ranges a launch, which bounds the memory of a dump.
 constexpr std::size_t rangesAtOnce = 1024;
 

@@ -105,7 +105,7 @@ Made iterateOnDevice(QuadRig& rig, const std::vector<quad_range>& ranges) {
     const PatchSet& patches = rig.patches();
     const auto count = static_cast<std::uint32_t>(ranges.size()) + patches.patches;
     const auto buffer = [&](std::size_t bytes) { return session.memory.allocate("a test's buffer", bytes); };
-    const DeviceBuffer stack = buffer(2 * count * sizeof(quad_range));
+    const DeviceBuffer stack = buffer(std::size_t{2} * count * sizeof(quad_range));
     const DeviceBuffer batch = buffer(count * sizeof(quad_range));
     const DeviceBuffer ready = buffer(count * sizeof(quad_range));
     const DeviceBuffer actions = buffer(count);
@@ -261,7 +261,8 @@ struct InView {
 // Whether any of some points of the range, at its corners and within, is in view.
 bool anyInView(const InView& inView, const quad_range& range, Random& random) {
     for (int k = 0; k < 24; ++k) {
-        const double s = k < 4 ? k % 2 : random.unit(), t = k < 4 ? k / 2 : random.unit();
+        const int column = k % 2, row = k / 2;
+        const double s = k < 4 ? column : random.unit(), t = k < 4 ? row : random.unit();
         const std::array<double, 4> weight{(1 - s) * (1 - t), s * (1 - t), s * t, (1 - s) * t};
         double u = 0.0, v = 0.0;
         for (std::size_t c = 0; c < 4; ++c) {

@@ -1,13 +1,11 @@
-// Tests of the reference surfaces themselves: closed forms, derivatives, symmetries and the boxes of pieces.
-#include "patch_eval.h"
-#include "patch_piece.h"
-#include "sample_meshes.h"
+// Tests of the reference surfaces themselves: closed forms, derivatives and symmetries.
+#include "patch_samples.h"
 
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <vector>
 
 namespace tessera::reference {
@@ -24,42 +22,12 @@ std::vector<glm::dvec3> graphPatch(std::size_t m, std::size_t n) {
     return points;
 }
 
-// What an evaluator needs of one patch.
-struct Sample {
-    PatchKind kind;
-    std::vector<glm::dvec3> points;
-    std::vector<double> weights{};
-
-    [[nodiscard]] SurfacePoint at(double u, double v) const { return evaluate(kind, points, u, v, weights); }
-};
-
-Sample sampleOf(const Mesh& mesh) { return {mesh.kind, patchPoints(mesh, 0), patchWeights(mesh, 0)}; }
-
-// One of each kind in turn.
-Sample someSample(std::uint64_t seed) {
-    const Mesh bezier = bumpyBezierMesh(seed, 1);
-    switch (seed % 4) {
-        case 0:
-            return sampleOf(bezier);
-        case 1:
-            return sampleOf(parted(asGregory(bezier), 0.3, seed + 1000));
-        case 2:
-            return sampleOf(weighted(bezier, 4.0, seed + 2000));
-        default:
-            return sampleOf(bumpyPnMesh(seed, 1));
-    }
-}
-
 // Parameters within the domain of `kind`, `inset` from its borders.
 glm::dvec2 someParameters(PatchKind kind, Random& random, double inset) {
     for (;;) {
         const glm::dvec2 at(random.between(inset, 1.0 - inset), random.between(inset, 1.0 - inset));
         if (kind != PatchKind::pn || at.x + at.y <= 1.0 - inset) return at;
     }
-}
-
-std::vector<glm::dvec3> rationalPatch(std::uint64_t seed) {
-    return patchPoints(parted(asGregory(bumpyBezierMesh(seed, 1)), 0.3, seed + 1000), 0);
 }
 
 void expectNear(const glm::dvec3& a, const glm::dvec3& b, double tolerance) {
@@ -98,7 +66,7 @@ TEST(ReferenceSurface, DerivativesAreTheLimitsOfDifferences) {
 }
 
 TEST(ReferenceSurface, GregoryCornersHaveTheTangentsOfTheirEdges) {
-    const std::vector<glm::dvec3> p = rationalPatch(3);
+    const std::vector<glm::dvec3> p = blendedSample(3).points;
     const std::array<glm::dvec2, 4> corner{glm::dvec2(0, 0), {1, 0}, {1, 1}, {0, 1}};
     const std::array<glm::dvec2, 4> plus{glm::dvec2(1, 0), {0, 1}, {-1, 0}, {0, -1}};  // direction of e+ in (u, v)
     for (std::size_t k = 0; k < 4; ++k) {
@@ -115,7 +83,7 @@ TEST(ReferenceSurface, GregoryCornersHaveTheTangentsOfTheirEdges) {
 
 // What makes neighbours smooth: the ribbon along border k (corner k to k + 1) is made of f+k and f-(k+1) alone.
 TEST(ReferenceSurface, GregoryBordersDependOnTheirOwnFacePointsAlone) {
-    const std::vector<glm::dvec3> points = rationalPatch(5);
+    const std::vector<glm::dvec3> points = blendedSample(5).points;
     const std::array<glm::dvec2, 4> start{glm::dvec2(0, 0), {1, 0}, {1, 1}, {0, 1}};
     for (std::size_t border = 0; border < 4; ++border) {
         const glm::dvec2 at = glm::mix(start[border], start[(border + 1) % 4], 0.3);
@@ -132,7 +100,7 @@ TEST(ReferenceSurface, GregoryBordersDependOnTheirOwnFacePointsAlone) {
 }
 
 TEST(ReferenceSurface, GregoryPatchTurnedByOneCornerIsTheSameSurface) {
-    const std::vector<glm::dvec3> points = rationalPatch(11);
+    const std::vector<glm::dvec3> points = blendedSample(11).points;
     std::vector<glm::dvec3> turned(20);
     for (std::size_t group = 0; group < 5; ++group)
         for (std::size_t k = 0; k < 4; ++k) turned[4 * group + k] = points[4 * group + (k + 1) % 4];
@@ -147,7 +115,7 @@ TEST(ReferenceSurface, GregoryPatchTurnedByOneCornerIsTheSameSurface) {
 }
 
 TEST(ReferenceSurface, GregoryPatchFlippedOverTheDiagonalIsTheSameSurface) {
-    const std::vector<glm::dvec3> points = rationalPatch(12);
+    const std::vector<glm::dvec3> points = blendedSample(12).points;
     std::vector<glm::dvec3> flipped(20);
     const std::array<std::size_t, 5> group{0, 2, 1, 4, 3};  // e+ and e- change places, f+ and f- likewise
     const std::array<std::size_t, 4> corner{0, 3, 2, 1};
@@ -334,81 +302,6 @@ TEST(ReferenceSurface, PatchWithoutAreaHasNoNormal) {
     std::vector<glm::dvec3> line(16, glm::dvec3(0.0));
     for (std::size_t i = 0; i < 16; ++i) line[i].x = static_cast<double>(i);
     expectNear(unitNormal(PatchKind::bezier, line, 0.2, 0.7), glm::dvec3(0.0), 0.0);
-}
-
-// A Gregory patch of nothing but one blend, where the pads are closest to what they hold.
-std::vector<glm::dvec3> loneBlend() {
-    std::vector<glm::dvec3> points(20, glm::dvec3(0.0));
-    points[12] = {0.5, -0.5, 0.25};
-    points[16] = -points[12];
-    return points;
-}
-
-// A piece reached by halving: at random, or always towards the corner at (0, 0), where blends bend most.
-Piece somePiece(const PatchShape& shape, Random& random, int cuts, bool towardsCorner) {
-    Piece piece = wholePiece(shape);
-    for (int i = 0; i < cuts; ++i) {
-        const auto [first, second] = halves(piece, i % 2 == 0);
-        piece = towardsCorner || random.unit() < 0.5 ? first : second;
-    }
-    return piece;
-}
-
-void expectWithin(const glm::dvec3& a, const glm::dvec3& b, const glm::dvec3& pad, const char* what) {
-    const glm::dvec3 excess = glm::abs(a - b) - pad;
-    EXPECT_LE(std::max({excess.x, excess.y, excess.z}), 1e-13) << what;
-}
-
-// The denominator of a rational patch and its derivatives, as x coordinates; 1 of any other.
-SurfacePoint weightOf(const Sample& sample, const glm::dvec2& at) {
-    if (sample.weights.empty()) return {glm::dvec3(1, 0, 0), {}, {}};
-    std::vector<glm::dvec3> weights;
-    for (const double weight : sample.weights) weights.emplace_back(weight, 0, 0);
-    return evaluate(PatchKind::bezier, weights, at.x, at.y);
-}
-
-// The product with a weight, by the product rule.
-SurfacePoint times(const SurfacePoint& s, const SurfacePoint& weight) {
-    const double w = weight.position.x;
-    return {w * s.position, w * s.du + weight.du.x * s.position, w * s.dv + weight.dv.x * s.position};
-}
-
-// The surface, of rational patches times its weight, stays within the pads of the patch over the enclosure's net, and so of that net's
-// hull.
-TEST(ReferencePiece, EnclosesTheSurfaceAndItsDerivatives) {
-    Random random(99);
-    for (std::uint64_t seed = 0; seed < 200; ++seed) {
-        const Sample sample = seed % 8 == 1 ? Sample{PatchKind::gregory, loneBlend()} : someSample(seed);
-        const PatchShape shape = makeShape(sample.kind, sample.points, sample.weights);
-        const Piece piece = somePiece(shape, random, static_cast<int>(seed % 12), seed % 3 == 0);
-        const Enclosure enclosure = enclose(shape, piece);
-        const Box box = boxOf(enclosure);
-        const glm::dvec2 width = piece.rectangle.width();
-        for (int k = 0; k < 100; ++k) {
-            const bool corner = k < 20;
-            const glm::dvec2 local(corner ? k % 2 : random.unit(), corner ? k / 2 % 2 : random.unit());
-            const glm::dvec2 at = piece.rectangle.lower + width * local;
-            const SurfacePoint n = evaluate(PatchKind::bezier, enclosure.net, local.x, local.y);
-            const SurfacePoint s = times(sample.at(at.x, at.y), weightOf(sample, at));
-            expectWithin(sample.at(at.x, at.y).position, 0.5 * (box.lower + box.upper), 0.5 * (box.upper - box.lower), "box");
-            expectWithin(s.position, n.position, enclosure.pad, "position");
-            expectWithin(width.x * s.du, n.du, enclosure.slopePadU, "du");
-            expectWithin(width.y * s.dv, n.dv, enclosure.slopePadV, "dv");
-        }
-    }
-}
-
-// Without this the search would not end: the box must shrink onto the surface faster than the piece.
-TEST(ReferencePiece, PaddingFallsWithTheSquareOfTheWidth) {
-    const PatchShape shape = makeShape(PatchKind::gregory, rationalPatch(2));
-    Piece piece = wholePiece(shape);
-    double before = glm::length(enclose(shape, piece).pad);
-    for (int i = 0; i < 6; ++i) {
-        piece = halves(halves(piece, true).first, false).first;
-        const double now = glm::length(enclose(shape, piece).pad);
-        EXPECT_NEAR(now, before / 4, 1e-12);
-        before = now;
-    }
 }
 
 }  // namespace

@@ -149,7 +149,7 @@ TEST(Quadrics, CloseWhereTheTurnIsWholeButForRounding) {
 
 // Halfway between two numbers of single precision: the least error beforehand changes what it is rounded to.
 double halfway(double value) {
-    const float near = static_cast<float>(value);
+    const auto near = static_cast<float>(value);
     return (static_cast<double>(near) + static_cast<double>(std::nextafter(near, 2e9F))) / 2.0;
 }
 

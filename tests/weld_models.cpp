@@ -81,7 +81,8 @@ struct Lattice {
 
     [[nodiscard]] std::size_t at(int i, int j) const {
         const int row = ball ? j : j % (3 * rows);
-        return static_cast<std::size_t>(row * 3 * columns + i % (3 * columns));
+        const int place = row * 3 * columns + i % (3 * columns);
+        return static_cast<std::size_t>(place);
     }
 };
 
@@ -152,7 +153,7 @@ int middleOf(Model& model, int a, int b) {
 glm::vec3 moved(const glm::dvec3& point, double noise, std::mt19937& random) {
     glm::dvec3 by(1.0);
     while (glm::length(by) > 1.0) by = {uniform(random, -1, 1), uniform(random, -1, 1), uniform(random, -1, 1)};
-    return glm::vec3(point + noise * by);
+    return {point + noise * by};
 }
 
 void append(Mesh& mesh, const ModelPatch& patch) {

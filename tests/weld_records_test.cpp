@@ -92,7 +92,8 @@ Scene coarseBelow(const std::vector<std::array<double, 2>>& parts) {
     const auto addPatch = [&](Mesh& mesh, double x0, double x1, double y0, double y1) {
         const std::array<double, 4> z{polar(x0, x0, x0), polar(x0, x0, x1), polar(x0, x1, x1), polar(x1, x1, x1)};
         for (int k = 0; k < 16; ++k) {
-            mesh.points.emplace_back(x0 + (x1 - x0) * (k % 4) / 3.0, y0 + (y1 - y0) * (k / 4) / 3.0, z[static_cast<std::size_t>(k % 4)]);
+            const int column = k % 4, row = k / 4;
+            mesh.points.emplace_back(x0 + (x1 - x0) * column / 3.0, y0 + (y1 - y0) * row / 3.0, z[static_cast<std::size_t>(column)]);
         }
     };
     EXPECT_NEAR(height(0.5), polar(0.5, 0.5, 0.5), 1e-12);
@@ -149,6 +150,7 @@ TEST(WeldRecords, HangingCornersLieOnTheCoarseCurveToTheBit) {
 TEST(WeldRecords, TheEighthLevelIsTheFinest) {
     for (const int level : {8, 9}) {
         std::vector<std::array<double, 2>> parts;
+        parts.reserve(static_cast<std::size_t>(level) + 1);
         for (int k = 0; k < level; ++k) parts.push_back({1.0 - std::ldexp(1.0, -k), 1.0 - std::ldexp(1.0, -k - 1)});
         parts.push_back({1.0 - std::ldexp(1.0, -level), 1.0});
         Scene scene = coarseBelow(parts);
@@ -249,7 +251,8 @@ Mesh patchAlong(PatchKind kind, std::size_t side, const std::array<glm::vec3, 4>
     for (std::size_t k = 0; k < mesh.points.size(); ++k) {
         const bool pn = kind == PatchKind::pn;
         if (pn && k >= 10) break;
-        const float u = pn ? triangle[k][0] : static_cast<float>(k % 4), v = pn ? triangle[k][1] : static_cast<float>(k / 4);
+        const std::size_t column = k % 4, row = k / 4;
+        const float u = pn ? triangle[k][0] : static_cast<float>(column), v = pn ? triangle[k][1] : static_cast<float>(row);
         const std::array<float, 4> from{v, pn ? 3 - u - v : 3 - u, 3 - v, u}, place{u, v, u, v};
         const auto at = static_cast<std::size_t>(place[side]);
         mesh.points[k] = along[at] + away * from[side] * (1.0F + 0.1F * place[side] * (3.0F - place[side]));

@@ -37,7 +37,8 @@ Scene sceneOf(std::vector<Mesh> meshes) {
 // A flat patch with corners at (x, y) and (x + w, y + h).
 void addFlat(Mesh& mesh, double x, double y, double w, double h) {
     for (int k = 0; k < 16; ++k) {
-        const glm::dvec3 point(x + w * (k % 4) / 3.0, y + h * (k / 4) / 3.0, 0.25 * (k % 4));
+        const int column = k % 4, row = k / 4;
+        const glm::dvec3 point(x + w * column / 3.0, y + h * row / 3.0, 0.25 * column);
         mesh.points.emplace_back(point.x, point.y, 0.0);
     }
 }
@@ -304,8 +305,8 @@ TEST(Weld, ManySliversAroundOnePoleCloseTheCircle) {
     Mesh mesh;
     for (int s = 0; s < kSlivers; ++s) {
         for (int k = 0; k < 16; ++k) {
-            const int step = 3 * s + k % 4;
-            const double angle = 2.0 * std::numbers::pi * (step % (3 * kSlivers)) / (3 * kSlivers), radius = (k / 4) / 3.0;
+            const int step = 3 * s + k % 4, row = k / 4;
+            const double angle = 2.0 * std::numbers::pi * (step % (3 * kSlivers)) / (3 * kSlivers), radius = row / 3.0;
             mesh.points.emplace_back(glm::dvec3(radius * std::cos(angle), radius * std::sin(angle), 0.0));
         }
     }

@@ -35,8 +35,9 @@ TEST(WorkGroupMethods, GiveTheSameBits) {
     const Outcome looped = bitsUnder("loops");
     ASSERT_EQ(vectorized.exitCode, 0) << vectorized.err;
     ASSERT_EQ(looped.exitCode, 0) << looped.err;
-    // Three scenes, three sample counts, both kinds of atomics, six planes and a count each.
-    EXPECT_EQ(std::count(vectorized.out.begin(), vectorized.out.end(), '\n'), 3 * 3 * 2 * 7);
+    // Three scenes in both modes and four in watertight mode alone, three sets of options, both kinds of atomics, six planes and a count
+    // each.
+    EXPECT_EQ(std::count(vectorized.out.begin(), vectorized.out.end(), '\n'), (3 * 2 + 4) * 3 * 2 * 7);
     EXPECT_EQ(vectorized.out, looped.out);
 }
 

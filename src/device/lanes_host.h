@@ -34,6 +34,7 @@ T load_lanes(const T* pointer) {
     return *pointer;
 }
 inline vint vlane_index() { return 0; }
+inline vint vfirst(vint x) { return x; }
 inline float vto_float(vint x) { return static_cast<float>(x); }
 inline vint vas_int(float x) { return std::bit_cast<vint>(x); }
 inline float vas_float(vint x) { return std::bit_cast<float>(x); }

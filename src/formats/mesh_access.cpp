@@ -49,7 +49,7 @@ public:
     explicit MeshAccess(MeshFolder& folder) : folder_(folder) {}
 
     bool Exists(const char* file) const override { return folder_.mayOpen(file); }
-    char getOsSeparator() const override { return '/'; }
+    [[nodiscard]] char getOsSeparator() const override { return '/'; }
     Assimp::IOStream* Open(const char* file, const char* mode) override {
         const bool reads = std::string_view(mode).find_first_of("wa+") == std::string_view::npos;
         return reads ? folder_.open(file).release() : nullptr;

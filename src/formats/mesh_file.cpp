@@ -6,6 +6,7 @@
 #include "formats/mesh_notes.h"
 #include "formats/mesh_ply.h"
 #include "formats/mesh_scene.h"
+#include "formats/trial_run.h"
 #include "scene/text.h"
 #include "tessera/error.h"
 
@@ -77,13 +78,34 @@ void checkHead(MeshFolder& folder, const MeshNotes& notes) {
     if (ending == ".ply" || lowerCase(head.substr(0, 3)) == "ply") checkPlyHeader(head, stream->FileSize(), notes);
 }
 
-Scene import(MeshFolder& folder, bool flat, const MeshNotes& notes) {
-    checkHead(folder, notes);
-    Assimp::Importer importer;
+void setUp(Assimp::Importer& importer, MeshFolder& folder) {
     importer.SetIOHandler(folder.makeAccess().release());  // owned by the importer from here on
     // Neither is drawn: no meshes made up of bones, no time spent on motion.
     importer.SetPropertyBool(AI_CONFIG_IMPORT_NO_SKELETON_MESHES, true);
     importer.SetPropertyBool(AI_CONFIG_IMPORT_FBX_READ_ANIMATIONS, false);
+}
+
+// Some of Assimp's readers crash on damaged files, OFF's for one: a process of its own tries first.
+void tryReading(MeshFolder& folder, std::uintmax_t fileBytes, const MeshNotes& notes) {
+    constexpr unsigned kLeastSeconds = 60;
+    checkHead(folder, notes);
+    const auto seconds = kLeastSeconds + static_cast<unsigned>(fileBytes >> 20U);
+    const std::string death = trialRun(
+        [&] {
+            Assimp::Importer importer;
+            setUp(importer, folder);
+            static_cast<void>(importer.ReadFile(notes.file(), aiProcess_Triangulate));
+        },
+        seconds);
+    if (!death.empty()) {
+        notes.fail("the reader of this format does not stand it: " + death + "; repair the file, or convert it to OBJ, PLY or glTF");
+    }
+}
+
+Scene import(MeshFolder& folder, bool flat, const MeshNotes& notes) {
+    checkHead(folder, notes);
+    Assimp::Importer importer;
+    setUp(importer, folder);
     const aiScene* source = &sceneOf(importer, notes, [&] { return importer.ReadFile(notes.file(), 0); });
     if (checkMeshScene(*source, notes) == MeshFaces::polygons) {
         source = &sceneOf(importer, notes, [&] { return importer.ApplyPostProcessing(aiProcess_Triangulate); });
@@ -119,6 +141,7 @@ Scene readMeshFile(const std::filesystem::path& path, bool flat, std::vector<std
     const MeshNotes notes(path.string(), warnings);
     checkFile(path, notes);
     MeshFolder folder(path);
+    tryReading(folder, std::filesystem::file_size(path), notes);
     return importCaught(folder, flat, notes);
 }
 

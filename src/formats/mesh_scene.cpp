@@ -33,8 +33,8 @@ std::string_view text(const aiString& name) { return {name.data, name.length}; }
 
 glm::dmat4 matrixOf(const aiMatrix4x4& m) {
     // What is below the third row makes no sense in a node.
-    return glm::dmat4(glm::dvec4(m.a1, m.b1, m.c1, 0.0), glm::dvec4(m.a2, m.b2, m.c2, 0.0), glm::dvec4(m.a3, m.b3, m.c3, 0.0),
-                      glm::dvec4(m.a4, m.b4, m.c4, 1.0));
+    return {glm::dvec4(m.a1, m.b1, m.c1, 0.0), glm::dvec4(m.a2, m.b2, m.c2, 0.0), glm::dvec4(m.a3, m.b3, m.c3, 0.0),
+            glm::dvec4(m.a4, m.b4, m.c4, 1.0)};
 }
 
 // Files round their numbers: this much is no scale.
@@ -113,15 +113,17 @@ glm::vec3 colorOf(const aiScene& source, const aiMesh& mesh) {
 }
 
 // "4 triangles left out as duplicates, ...", empty where nothing is worth telling.
-std::string describe(const TriangleRepairs& repairs) {
+// That a file without normals has them computed is no news.
+std::string describe(const TriangleRepairs& repairs, bool hadNormals) {
     std::string said;
     const auto tell = [&](std::size_t count, std::string_view what) {
-        if (count > 0) said += (said.empty() ? "" : ", ") + std::to_string(count) + " " + std::string(what);
+        if (count > 0) said += (said.empty() ? "" : "; ") + std::string(what) + ": " + std::to_string(count);
     };
     tell(repairs.droppedNotFinite, "triangles left out for corners that are not finite or beyond 1e9");
-    tell(repairs.droppedBadIndex, "for corners that do not exist");
+    tell(repairs.droppedBadIndex, "triangles left out for corners that do not exist");
     tell(repairs.droppedDegenerate, "triangles left out for two corners in one place");
     tell(repairs.droppedDuplicates, "triangles left out as duplicates");
+    if (hadNormals) tell(repairs.computedNormals, "corners whose normals were computed by angle");
     tell(repairs.flippedTriangles, "triangles turned to agree with their neighbours");
     tell(repairs.unorientedEdges, "edges along which neighbours cannot agree");
     tell(repairs.nonManifoldEdges, "edges of three or more triangles");
@@ -210,7 +212,8 @@ private:
         try {
             Mesh mesh = pnMesh(triangles, flat_, &repairs);
             mesh.name = meshNames_.make(triangles.name);
-            if (const std::string said = describe(repairs); !said.empty()) notes_.warn("mesh " + quotedName(mesh.name) + ": " + said);
+            if (const std::string said = describe(repairs, !triangles.normals.empty()); !said.empty())
+                notes_.warn("mesh " + quotedName(mesh.name) + ": " + said);
             scene_.meshes.push_back(std::move(mesh));
         } catch (const Error& error) {
             leaveOut(error.what());

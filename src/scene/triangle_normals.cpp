@@ -18,7 +18,7 @@ std::optional<glm::dvec3> unit(const glm::dvec3& v) {
 }
 
 glm::dvec3 corner(const RepairedTriangles& triangles, std::size_t triangle, std::size_t k) {
-    return glm::dvec3(triangles.positions[triangles.corners[triangle][k]]);
+    return {triangles.positions[triangles.corners[triangle][k]]};
 }
 
 // Square to `axis`, of unit length.

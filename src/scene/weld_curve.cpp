@@ -48,7 +48,7 @@ glm::vec3 logWeights(const Curve& curve) {
         logs[k] = std::log(curve.weights[k]);
         mean += 0.25 * logs[k];
     }
-    return glm::vec3(glm::dvec3(logs[0] - mean, logs[1] - mean, logs[2] - mean));
+    return {glm::dvec3(logs[0] - mean, logs[1] - mean, logs[2] - mean)};
 }
 
 glm::vec3 pointOnRecord(const EdgeRecord& record, float t) {

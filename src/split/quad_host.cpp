@@ -1,3 +1,4 @@
+// The host's side of the watertight split: the kernels' own rule, compiled as C++.
 #include "split/quad_host.h"
 
 #include <algorithm>
@@ -67,6 +68,7 @@ bool judgeHull(const frame_params& frame, const Sight& sight, const quad_range& 
     for (std::size_t k = 0; k < QUAD_HULL - 1; ++k) along[k] = distance(x, y, k, k + 1);
     for (std::size_t k = 0; k < QUAD_HULL - 4; ++k) across[k] = distance(x, y, k, k + 4);
     interior = kernels::quad_interior_of(&frame, sight.eye.kind, along.data(), across.data());
+    if (outside != 0 && sight.eye.flags >= SIDE_RECORDED) outside &= kernels::records_outside(&frame, sight.eye, &range, rounding);
     return outside != 0;
 }
 

@@ -82,10 +82,13 @@ static inline void measure_places(int places, quad_work work, bool both) {
     }
 }
 
-// What a range's hull says: QUAD_CULL where it lies wholly beyond one plane; and how fine its interior must be.
-static inline int judge_hull(local const int* outside) {
+// QUAD_CULL where a range lies wholly beyond one plane, by its hull and by what else draws its borders.
+static inline int judge_hull(const frame_params* frame, quad_source source, local const quad_range* quad, local const int* outside) {
     int out = outside[0];
     for (int k = 1; k < QUAD_HULL; ++k) out &= outside[k];
+    if (out == 0) return QUAD_DICE;
+    patch_ref patch = source_patch(frame, source, quad->patch_index);
+    if (patch.flags >= SIDE_RECORDED) out &= records_outside(frame, patch, quad, hull_rounding(patch));
     return out != 0 ? QUAD_CULL : QUAD_DICE;
 }
 
@@ -209,7 +212,7 @@ static inline void bound_quads(const frame_params* frame, split_plan plan, globa
     measure_places((int)count * QUAD_HULL, work, true);
     barrier(CLK_LOCAL_MEM_FENCE);
     for (uint k = lid; k < count; k += GROUP) {
-        work.action[k] = judge_hull(work.outside + k * QUAD_HULL);
+        work.action[k] = judge_hull(frame, source, work.quad + k, work.outside + k * QUAD_HULL);
         interiors[k] =
             quad_interior_of(frame, patch_kind(frame, work.quad[k].patch_index), work.along + k * QUAD_HULL, work.across + k * QUAD_HULL);
     }
