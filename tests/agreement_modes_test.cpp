@@ -63,13 +63,12 @@ Distance distanceOf(const Kept& picture, const reference::Picture& expected) {
     return result;
 }
 
-// Classical ranges of up to `bound` pixels, cut into rate x rate: micropolygons of a pixel, and smaller. With a bound of 16, watertight
-// pictures are nearer in depth and normals too, but err more in coverage: at 381 pixels here, classical ones at 309.
+// Classical ranges of up to `bound` pixels, cut into rate x rate: micropolygons of two pixels, of one, and smaller.
 struct Density {
     float bound;
     int rate;
 };
-constexpr std::array densities{Density{8.0F, 8}, Density{5.0F, 8}};
+constexpr std::array densities{Density{16.0F, 8}, Density{8.0F, 8}, Density{5.0F, 8}};
 
 RenderOptions classicalOptions(const Density& density) {
     RenderOptions options = pictureOptions(side, side, 1);
@@ -124,7 +123,7 @@ std::vector<ClosedModel> models() {
     return result;
 }
 
-TEST(WatertightAgreement, DepthAndNormalsAreNearerThanClassicalOnesAndCoverageIsAsNear) {
+TEST(WatertightAgreement, CoverageDepthAndNormalsAreNearerThanClassicalOnes) {
     Renderer renderer(testSettings());
     std::array<Distance, densities.size()> classical;
     std::array<Distance, densities.size()> watertight;
@@ -147,9 +146,7 @@ TEST(WatertightAgreement, DepthAndNormalsAreNearerThanClassicalOnesAndCoverageIs
         std::cout << "all, bound " << densities[k].bound << "\n    classical:  " << classical[k] << "\n    watertight: " << watertight[k]
                   << '\n';
         SCOPED_TRACE("bound " + std::to_string(densities[k].bound));
-        // Both counts are of pixels that lie by chance within sag of an outline: this far apart, two standard deviations, is chance too.
-        const auto counted = static_cast<double>(watertight[k].coverage + classical[k].coverage);
-        EXPECT_LE(static_cast<double>(watertight[k].coverage), static_cast<double>(classical[k].coverage) + 2.0 * std::sqrt(counted));
+        EXPECT_LT(watertight[k].coverage, classical[k].coverage);
         EXPECT_LT(watertight[k].meanDepth(), classical[k].meanDepth());
         EXPECT_LT(watertight[k].meanAngle(), classical[k].meanAngle());
     }

@@ -334,7 +334,7 @@ TEST(EdgeBits, EveryMethodFindsTheSameRanges) {
 // Rates that are hashes of what an edge measures: still the same on both its sides, else without sense.
 KernelSources hashedRates() {
     return replaced(kernelSources(),
-                    {{"split/quad_measure.clh", "uint rate = rate_of_length(frame, 4.0f * longest);",
+                    {{"split/quad_measure.clh", "uint rate = rate_of_length(frame, edge_length(frame, longest, bulge));",
                       "uint hash = as_uint(length) * 2654435769u; hash ^= hash >> 15; hash *= 2246822519u;"
                       "uint rate = (hash & 0x30000u) == 0u ? RATE_ONE : RATE_ONE + (hash >> 20) % (frame->grid_bits + 4u);"}});
 }

@@ -175,7 +175,7 @@ TEST(QuadHost, SplitsAsTheDeviceInTheShapeOfGpus) { expectSameDecisions(QuadRig(
 
 // Edges whose rates are hashes of what they measure, so that trees of ranges are deep and ragged.
 KernelSources hashedRates() {
-    return replaced(kernelSources(), {{"split/quad_measure.clh", "uint rate = rate_of_length(frame, 4.0f * longest);",
+    return replaced(kernelSources(), {{"split/quad_measure.clh", "uint rate = rate_of_length(frame, edge_length(frame, longest, bulge));",
                                        "uint hash = as_uint(length) * 2654435769u; hash ^= hash >> 15; hash *= 2246822519u;"
                                        "uint rate = RATE_ONE + (hash >> 20) % (frame->grid_bits + 4u);"}});
 }

@@ -85,7 +85,9 @@ std::uint32_t measuredRate(const frame_params& frame, const Sight& sight, const 
     }
     std::array<float, 4> parts{};
     for (std::size_t k = 0; k < parts.size(); ++k) parts[k] = distance(x, y, k, k + 1);
-    return kernels::edge_rate(&frame, sight.dicing, edge, parts.data());
+    const float dx = x[2] - 0.5F * (x[0] + x[4]);
+    const float dy = y[2] - 0.5F * (y[0] + y[4]);
+    return kernels::edge_rate(&frame, sight.dicing, edge, parts.data(), std::sqrt(dx * dx + dy * dy));
 }
 
 quad_cut measureCut(const frame_params& frame, const Sight& sight, const quad_range& range, int direction) {

@@ -125,7 +125,9 @@ static inline void place_samples(const frame_params* frame, quad_source source, 
 static inline uint sampled_rate(const frame_params* frame, patch_ref patch, quad_edge edge, quad_work work, int place) {
     float parts[4];
     for (int k = 0; k < 4; ++k) parts[k] = work.along[place + k];
-    return edge_rate(frame, patch, edge, parts);
+    float dx = work.x[place + 2] - 0.5f * (work.x[place] + work.x[place + 4]);
+    float dy = work.y[place + 2] - 0.5f * (work.y[place] + work.y[place + 4]);
+    return edge_rate(frame, patch, edge, parts, sqrt(dx * dx + dy * dy));
 }
 
 // Ranges that have just been fed and may be seen: notes the samples of their edges.
