@@ -51,7 +51,8 @@ struct RenderOptions {
     SplitMethod method = SplitMethod::bounded;
     DiceMode mode = DiceMode::watertight;
     std::uint32_t batch = 40000;  // p: ranges bounded at a time, 1 to 1 << 20
-    // Watertight mode. Edges get 2^k micropolygons, each at most sqrt(shadingRate) pixels long and more than half of that.
+    // Watertight mode. Edges get 2^k micropolygons, none longer than sqrt(shadingRate) pixels, and no more than it takes for that and for
+    // what a bend asks for.
     float shadingRate = 1.0F;            // greatest area of a micropolygon in pixels, 0.0625 to 65536
     int gridSize = 16;                   // most micropolygons along an edge of a range: 1, 2, 4, 8, 16 or 32
     std::optional<Camera> dicingCamera;  // where rates are measured, in a picture of this size; the frame's own camera without it
