@@ -1,5 +1,5 @@
 // Stands in for device/lanes.clh where the host compiles kernel headers as C++: one lane, the same bits.
-// For src/split/bound_host.cpp and src/split/quad_host.cpp alone.
+// For src/split/bound_host.cpp, src/split/quad_host.cpp and tests of kernel headers.
 #pragma once
 
 #include <algorithm>

@@ -8,22 +8,13 @@
 
 #include "device/lanes_host.h"
 
-// The kernel headers are C: casts and index types are theirs.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wold-style-cast"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wparentheses"
+// clang-format off
+#include "device/kernel_headers_begin.h"
 namespace tessera::kernels {
-#define global
-#define local
-#define constant static const
 #include "split/quad_measure.clh"
-#undef global
-#undef local
-#undef constant
 }  // namespace tessera::kernels
-#pragma GCC diagnostic pop
+#include "device/kernel_headers_end.h"
+// clang-format on
 
 namespace tessera {
 namespace {
