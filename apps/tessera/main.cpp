@@ -66,7 +66,7 @@ int parseAndRun(int argc, char** argv) {
     app.require_subcommand(0, 1);
     app.footer("Example: tessera render teapot -o teapot.png\n'tessera COMMAND --help' tells a command's options.");
     const std::array commands{addRenderCommand(app, commandLineText({argv, static_cast<std::size_t>(argc)})), addInfoCommand(app),
-                              addDevicesCommand(app)};
+                              addGenerateCommand(app), addDevicesCommand(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
@@ -74,7 +74,7 @@ int parseAndRun(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return usageFailure(app, error.what());
     }
-    if (app.get_subcommands().empty()) return usageFailure(app, "no command given: render, info or devices");
+    if (app.get_subcommands().empty()) return usageFailure(app, "no command given: render, info, generate or devices");
     return run(app, commands);
 }
 
