@@ -2,6 +2,7 @@
 #include "bench_scenes.h"
 
 #include "made_scenes.h"
+#include "tessera/generate.h"
 
 #include <string_view>
 #include <utility>
@@ -15,7 +16,7 @@ std::vector<SceneSource> sceneSources(const std::string& folder) {
         sources.push_back({"builtin_" + std::string(name), [name] { return builtinScene(name); }, name == "teapot"});
     }
     sources.push_back({"made_teapots", [] { return teapotGrid(12, 8); }});
-    sources.push_back({"made_strands", [] { return strands(20000); }});
+    sources.push_back({"made_hair", [] { return generateScene("hair", 15000); }});
     for (SceneSource& source : fileScenes(folder)) sources.push_back(std::move(source));
     return sources;
 }

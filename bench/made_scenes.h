@@ -8,7 +8,4 @@ namespace tessera::bench {
 // columns x rows built-in teapots side by side, all in the picture: many patches of ordinary size.
 [[nodiscard]] Scene teapotGrid(int columns, int rows);
 
-// `count` thin ribbons of three patches each that hang over a hill, like hair: many narrow patches, much overdraw.
-[[nodiscard]] Scene strands(int count);
-
 }  // namespace tessera::bench

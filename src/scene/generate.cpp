@@ -21,7 +21,7 @@ struct Family {
 const std::vector<Family>& families() {
     static const std::vector<Family> all{
         {{"hair", "strands", 1, 1000000, 10000, "strands of four ribbon patches each, combed over a head"}, generateHair},
-        {{"columns", "columns", 1, 100000, 60, "a hall of fluted columns"}, generateColumns},
+        {{"columns", "columns", 1, 100000, 40, "a hall of fluted columns"}, generateColumns},
         {{"city", "patches", 20000, 20000000, 1000000, "streets, towers, trees; cameras average, spike and eyesplit"}, generateCity},
         {{"eyesplit", "patches", 1, 1, 1, "a plane patch that passes its camera's eye plane"}, generateEyesplit},
         {{"random", "patches", 1, 4000000, 10000, "patches of random points"}, generateRandomPatches},

@@ -17,17 +17,17 @@ constexpr double kPitch = 48.0;  // of blocks, 12 of them street
 constexpr double kLawn = 0.15;   // height of what one walks on beside the streets
 
 // Of the patches, as long as the grove has room for them.
-constexpr double kWillowShare = 0.22;
-constexpr double kReedShare = 0.08;
+constexpr double kWillowShare = 0.34;
+constexpr double kReedShare = 0.14;
 constexpr std::size_t kGroveRows = 8;  // of willows, each way
-constexpr std::size_t kReedRows = 25;  // of tufts, each way
+constexpr std::size_t kReedRows = 22;  // of tufts, each way
 
 // Two blocks wide and deep, the streets between them grown over; the street along x = 0 ends here on both sides.
 constexpr glm::dvec2 kGroveCentre(0.0, -48.0);
 constexpr double kGroveHalf = 42.0;
 
 // Among the reeds.
-constexpr glm::dvec2 kEyesplitPlace(0.0, -30.0);
+constexpr glm::dvec2 kEyesplitPlace(0.0, -14.0);
 
 struct Block {
     int column;  // centres lie at (column + 0.5, row + 0.5) pitches
@@ -178,7 +178,7 @@ void plantGrove(Builder& builder, std::uint64_t count) {
             builder.place(models, at, builder.random().next());
         }
     };
-    plant(builder.kit.reeds, kEyesplitPlace, kReedRows, 0.8, kReedShare * static_cast<double>(count));
+    plant(builder.kit.reeds, kEyesplitPlace, kReedRows, 0.7, kReedShare * static_cast<double>(count));
     plant(builder.kit.willows, kGroveCentre, kGroveRows, 2.0 * kGroveHalf / kGroveRows, kWillowShare * static_cast<double>(count));
 }
 
@@ -217,8 +217,8 @@ Scene generateCity(const Making& making) {
     builder.placeOnce(bumpyGround("ground", {0.0, -3.5 * kPitch}, farthest, 16, 0.0, 0.0, builder.random()), {0.2F, 0.2F, 0.21F});
     Scene scene = std::move(builder.scene);
     addNamedCamera(scene, "average", {1.0F, 4.5F, -96.0F}, {0.0F, 6.5F, -190.0F}, 50.0F);
-    addNamedCamera(scene, "spike", {0.5F, 3.2F, -14.0F}, {0.0F, 3.6F, -100.0F}, 50.0F);
-    addNamedCamera(scene, "eyesplit", {0.0F, 1.6F, -30.0F}, {0.0F, 1.9F, -100.0F}, 50.0F);
+    addNamedCamera(scene, "spike", {0.3F, 3.2F, 12.0F}, {0.0F, 4.6F, -60.0F}, 50.0F);
+    addNamedCamera(scene, "eyesplit", {0.0F, 1.3F, -7.0F}, {0.0F, 1.8F, -100.0F}, 50.0F);
     addDaylight(scene);
     return scene;
 }

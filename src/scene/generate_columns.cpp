@@ -45,12 +45,12 @@ void bulge(Profile& profile, double high) {
     profile.curve(first, second, end);
 }
 
-// Base with two rounded rings, twenty flutes that run out at both ends of a swelling shaft, and a capital below a slab.
+// Base with two rounded rings, sixteen flutes that run out at both ends of a swelling shaft, and a capital below a slab.
 Mesh columnMesh() {
     std::vector<glm::vec3> points;
     appendSlab(points, 0.74, 0.74, 0.0, 0.22);
-    Profile profile({0.0, 0.22});
-    profile.line({0.58, 0.22});
+    // Open at both ends, which lie on slabs.
+    Profile profile({0.58, 0.22});
     bulge(profile, 0.42);
     profile.curve({0.53, 0.44}, {0.53, 0.5}, {0.57, 0.52});
     bulge(profile, 0.64);
@@ -61,8 +61,7 @@ Mesh columnMesh() {
     bulge(profile, 6.66);
     profile.curve({0.415, 6.8}, {0.45, 6.95}, {0.6, 7.05});
     bulge(profile, 7.15);
-    profile.line({0.0, 7.15});
-    appendTurned(points, flutedRing(20), profile);
+    appendTurned(points, flutedRing(16), profile);
     appendSlab(points, 0.72, 0.72, 7.15, kTop);
     return bezierMesh("column", std::move(points));
 }
@@ -122,7 +121,7 @@ Scene generateColumns(const Making& making) {
     }
     const auto width = static_cast<float>(kSpacing * static_cast<double>(across));
     const auto depth = static_cast<float>(kSpacing * static_cast<double>(along));
-    addNamedCamera(scene, "camera", {-0.95F * width, 5.0F, 0.5F * depth + 9.0F}, {0.1F * width, 3.2F, 0.12F * depth}, 42.0F);
+    addNamedCamera(scene, "camera", {-0.75F * width, 5.0F, 0.5F * depth + 9.0F}, {-0.12F * width, 3.0F, 0.1F * depth}, 42.0F);
     addDaylight(scene);
     return scene;
 }

@@ -23,7 +23,7 @@ constexpr glm::dvec3 kSkull(0.78, 1.0, 0.92);
 constexpr double kEars = -0.12;
 
 constexpr std::array<glm::vec3, 5> kShades{
-    {{0.3F, 0.15F, 0.06F}, {0.36F, 0.19F, 0.08F}, {0.42F, 0.23F, 0.1F}, {0.5F, 0.29F, 0.13F}, {0.58F, 0.36F, 0.18F}}};
+    {{0.16F, 0.07F, 0.03F}, {0.21F, 0.1F, 0.04F}, {0.26F, 0.13F, 0.05F}, {0.32F, 0.17F, 0.07F}, {0.4F, 0.23F, 0.1F}}};
 
 struct Strand {
     glm::dvec3 root;      // on the unit sphere that the skull is stretched from

@@ -137,7 +137,7 @@ void addWillow(CityKit& kit, Random& random, std::size_t fronds, const std::stri
         frond.spine[1] = start + swing * out + glm::dvec3(0.0, 0.35, 0.0);
         frond.spine[2] = start + 1.15 * swing * out + sway - glm::dvec3(0.0, 0.5 * drop, 0.0);
         frond.spine[3] = start + swing * out + 0.5 * sway - glm::dvec3(0.0, drop, 0.0);
-        const double half = random.between(0.014, 0.028);
+        const double half = random.between(0.008, 0.018);
         frond.half[0] = half;
         frond.half[1] = half;
         frond.half[2] = 1.2 * half;
@@ -156,9 +156,9 @@ void addReeds(CityKit& kit, Random& random, std::size_t blades, const std::strin
     for (std::size_t i = 0; i < blades; ++i) {
         const glm::dvec3 foot(random.between(-0.6, 0.6), -0.05, random.between(-0.6, 0.6));
         const glm::dvec2 lean = onCircle(random.next()) * random.between(0.1, 0.6);
-        const double height = random.between(1.1, 2.1);
+        const double height = random.between(1.5, 2.7);
         const glm::dvec3 out(lean.x, 0.0, lean.y);
-        const double half = random.between(0.012, 0.02);
+        const double half = random.between(0.007, 0.014);
         Blade blade;
         for (int k = 0; k < 4; ++k) {
             const double along = k / 3.0;
@@ -181,12 +181,12 @@ void addPlants(CityKit& kit, Random& random) {
     addTree(kit, random, 600, 8.0, 2.2, "tree 4");
     addFir(kit, random, 20, 9.0, "fir 1");
     addFir(kit, random, 24, 11.0, "fir 2");
-    addWillow(kit, random, 3600, "willow 1");
-    addWillow(kit, random, 4000, "willow 2");
-    addWillow(kit, random, 3200, "willow 3");
-    addReeds(kit, random, 160, "reeds 1");
-    addReeds(kit, random, 160, "reeds 2");
-    addReeds(kit, random, 160, "reeds 3");
+    addWillow(kit, random, 5500, "willow 1");
+    addWillow(kit, random, 6000, "willow 2");
+    addWillow(kit, random, 5000, "willow 3");
+    addReeds(kit, random, 320, "reeds 1");
+    addReeds(kit, random, 320, "reeds 2");
+    addReeds(kit, random, 320, "reeds 3");
 }
 
 }  // namespace tessera

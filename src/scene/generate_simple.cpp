@@ -97,7 +97,7 @@ Scene generateRandomPatches(const Making& making) {
         scene.meshes.push_back(bezierMesh(name, std::move(points[i])));
         place(scene, name, name, glm::vec3(0.0F), kColors[i]);
     }
-    addNamedCamera(scene, "camera", {1.6F, 1.9F, 4.6F}, {0.0F, -0.05F, 0.0F}, 32.0F);
+    addNamedCamera(scene, "camera", {1.6F, 1.9F, 4.6F}, {0.0F, -0.05F, 0.0F}, 29.0F);
     addStudioLights(scene);
     return scene;
 }
@@ -124,7 +124,7 @@ Scene generateSpheres(const Making& making) {
               kColors[random.below(kColors.size())]);
         making.tell(i, making.count);
     }
-    addNamedCamera(scene, "camera", {1.9F, 1.7F, 4.4F}, {0.0F, -0.05F, 0.0F}, 32.0F);
+    addNamedCamera(scene, "camera", {1.9F, 1.7F, 4.4F}, {0.0F, -0.05F, 0.0F}, 29.0F);
     addStudioLights(scene);
     return scene;
 }
