@@ -93,10 +93,10 @@ TEST(Generate, SameSeedGivesSameBitsAndAnotherSeedOthers) {
 
 // A machine, compiler or library that rounds otherwise shows here. Spheres are left out: their rational arcs are surfaces.h's.
 TEST(Generate, BitsAreThoseOfOtherMachines) {
-    EXPECT_EQ(fingerprint(small("hair")), 0U);
-    EXPECT_EQ(fingerprint(small("columns")), 0U);
-    EXPECT_EQ(fingerprint(small("city")), 0U);
-    EXPECT_EQ(fingerprint(small("random")), 0U);
+    EXPECT_EQ(fingerprint(small("hair")), 8268072263954370355U);
+    EXPECT_EQ(fingerprint(small("columns")), 16960838454788882101U);
+    EXPECT_EQ(fingerprint(small("city")), 1685788581081706662U);
+    EXPECT_EQ(fingerprint(small("random")), 3222046864611844801U);
 }
 
 TEST(Generate, CountsAreThoseAskedFor) {
@@ -146,14 +146,28 @@ TEST(Generate, CityHasThreeViewsOnOneLine) {
     for (const glm::vec3& eye : eyes) EXPECT_LT(std::abs(eye.x), 2.0F);
 }
 
-// Borders that two patches share in each mesh, by how it is made.
+// Leaves are patches by themselves, and among thousands some come near each other by chance.
+bool isFoliage(const Mesh& mesh) {
+    for (const std::string_view part : {"fronds", "boughs", "crown", "reeds"}) {
+        if (mesh.name.find(part) != std::string::npos) return true;
+    }
+    return false;
+}
+
 TEST(Generate, NeighboursJoinToTheBitWithoutMisses) {
     for (const std::string_view name : {"columns", "city", "spheres"}) {
         Scene scene = small(name);
+        for (const Mesh& mesh : scene.meshes) {
+            Scene alone;
+            alone.meshes = {mesh};
+            const WeldReport report = weld(alone);
+            EXPECT_EQ(report.snappedPoints, 0U) << name << ", " << mesh.name;
+            if (isFoliage(mesh)) continue;
+            EXPECT_EQ(report.nearestMiss, 0.0) << name << ", " << mesh.name;
+            EXPECT_GT(report.matchedEdges, report.boundaryEdges) << name << ", " << mesh.name;
+        }
         const WeldReport report = weld(scene);
-        EXPECT_EQ(report.snappedPoints, 0U) << name;
         EXPECT_EQ(report.largestGap, 0.0) << name;
-        EXPECT_EQ(report.nearestMiss, 0.0) << name;
         EXPECT_EQ(report.overusedEdges, 0U) << name;
     }
     Scene columns = small("columns");
@@ -166,6 +180,7 @@ TEST(Generate, NeighboursJoinToTheBitWithoutMisses) {
 TEST(Generate, StrandsAreJoinedInThemselvesAlone) {
     Scene hair = generateScene("hair", 50);
     std::erase_if(hair.objects, [](const Object& object) { return object.mesh == "bust"; });
+    std::erase_if(hair.meshes, [](const Mesh& mesh) { return mesh.name == "bust"; });
     const WeldReport strands = weld(hair, 0.0);
     // Each of four pieces has two long sides, and both ends are free.
     EXPECT_EQ(strands.boundaryEdges, 50U * 10U);

@@ -74,8 +74,8 @@ TEST_F(ProgramGenerates, CityIsRenderedThroughEachOfItsCameras) {
             run({"render", "city.mscene", "--camera", camera, "-o", "k.png", "--size", "64x36", "--pixel-samples", "1", "--stats", "-"});
         expectSuccess(outcome);
         const json stats = json::parse(outcome.out);
-        // Most of the picture: what is above the roofs is sky.
-        EXPECT_GT(stats.at("pixels_covered").get<int>(), 64 * 36 / 3) << camera;
+        // So small a city has one willow, and sky behind it.
+        EXPECT_GT(stats.at("pixels_covered").get<int>(), 64 * 36 / 8) << camera;
     }
 }
 

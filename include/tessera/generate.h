@@ -23,7 +23,7 @@ struct GeneratedScene {
 
 // hair      strands of four ribbon patches each, combed over a head
 // columns   a hall of fluted columns under beams, 240 patches a column and 40 a beam
-// city      about as many placed patches as the count says (never fewer, at most some 3000 more): instances of some three dozen meshes.
+// city      about as many placed patches as the count says (never fewer, at most some 6000 more): instances of some three dozen meshes.
 //           Cameras: "average" along a street, "spike" before a grove of willows, "eyesplit" within it, fronds passing its eye plane.
 //           The three look the same way from one line, so that a path through them is a walk. A million patches cover 500 m or so.
 // eyesplit  one plane patch that passes the eye plane of its camera

@@ -58,7 +58,8 @@ public:
             object.mesh = part.mesh;
             object.transform.translation = {at.x, height, at.y};
             object.transform.rotation = glm::quat(static_cast<float>(half.x), 0.0F, static_cast<float>(half.y), 0.0F);
-            object.color = part.colors[random_.below(part.colors.size())] * static_cast<float>(random_.between(0.88, 1.08));
+            object.color = part.colors[random_.below(part.colors.size())];
+            object.color *= static_cast<float>(random_.between(0.88, 1.08));
             object.material = part.material;
             scene.objects.push_back(std::move(object));
         }
@@ -109,7 +110,13 @@ Mesh bumpyGround(std::string name, const glm::dvec2& centre, double half, std::s
 }
 
 glm::dvec2 jittered(Random& random, const glm::dvec2& at, double by) {
-    return at + glm::dvec2(random.between(-by, by), random.between(-by, by));
+    const double x = random.between(-by, by);
+    return at + glm::dvec2(x, random.between(-by, by));
+}
+
+void plantTree(Builder& builder, const glm::dvec2& at, double by) {
+    const glm::dvec2 place = jittered(builder.random(), at, by);
+    builder.place(builder.kit.trees, place, builder.random().next());
 }
 
 // Trees and lamps along the edge of a block, on its pavement.
@@ -119,7 +126,7 @@ void plantEdge(Builder& builder, const glm::dvec2& centre) {
         const glm::dvec2 along(-out.y, out.x);
         for (int i = -1; i <= 1; ++i) {
             const glm::dvec2 at = centre + 16.6 * out + (12.0 * i + 6.0) * along;
-            if (i < 1) builder.place(builder.kit.trees, jittered(builder.random(), at, 0.4), builder.random().next());
+            if (i < 1) plantTree(builder, at, 0.4);
             builder.place(builder.kit.lamps, centre + 17.2 * out + 12.0 * i * along, 0.0);
         }
     }
@@ -137,14 +144,14 @@ void buildAround(Builder& builder, const std::vector<Model>& middle, const glm::
     builder.place(middle, centre, quarter(builder.random()));
     for (int i = 0; i < 8; ++i) {
         const glm::dvec2 out = onCircle(i / 8.0 + 0.0625);
-        builder.place(builder.kit.trees, jittered(builder.random(), centre + 14.0 * out, 0.5), builder.random().next());
+        plantTree(builder, centre + 14.0 * out, 0.5);
     }
 }
 
 void buildGarden(Builder& builder, const glm::dvec2& centre) {
     for (int i = 0; i < 16; ++i) {
         const glm::dvec2 at = centre + 6.5 * glm::dvec2(i % 4 - 1.5, i / 4 - 1.5);
-        builder.place(builder.kit.trees, jittered(builder.random(), at, 1.6), builder.random().next());
+        plantTree(builder, at, 1.6);
     }
 }
 

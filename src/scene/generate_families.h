@@ -1,6 +1,7 @@
 // The families of scenes that are made by rule, a file each, and what they share.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 #include <utility>
@@ -19,7 +20,7 @@ struct Making {
 
     // Tells how far it is, now and then.
     void tell(std::uint64_t done, std::uint64_t all) const {
-        if (progress && done % 1024 == 0) progress("generate", static_cast<double>(done) / static_cast<double>(all));
+        if (progress && done % 1024 == 0) progress("generate", std::min(1.0, static_cast<double>(done) / static_cast<double>(all)));
     }
 };
 

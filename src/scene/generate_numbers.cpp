@@ -31,6 +31,12 @@ glm::dvec3 Random::direction() {
     return {around.x, z, around.y};
 }
 
+glm::dvec3 Random::within(double half) {
+    const double x = between(-half, half);
+    const double y = between(-half, half);
+    return {x, y, between(-half, half)};
+}
+
 glm::dvec2 onCircle(double turns) {
     const double quarters = std::floor(4.0 * turns + 0.5);
     const double x = 6.283185307179586 * (turns - 0.25 * quarters);

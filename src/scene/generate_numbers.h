@@ -8,7 +8,8 @@
 
 namespace tessera {
 
-// Two of them with different seeds or streams are independent.
+// Two of them with different seeds or streams are independent. Take no two numbers within one expression or list of arguments:
+// compilers take these in orders of their own.
 class Random {
 public:
     explicit Random(std::uint32_t seed, std::uint32_t stream = 0);
@@ -20,6 +21,7 @@ public:
     }
     std::size_t below(std::size_t count);  // 0 to count - 1; count is above 0
     glm::dvec3 direction();                // of unit length, all alike
+    glm::dvec3 within(double half);        // of a cube about the origin
 
 private:
     std::uint64_t state_;

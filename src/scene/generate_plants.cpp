@@ -19,7 +19,8 @@ const std::vector<glm::vec3>& barks() {
 
 // A trunk that leans and tapers, with branches from its upper half.
 std::vector<glm::vec3> trunk(Random& random, double height, double radius, std::size_t branches, double reach) {
-    const glm::dvec2 lean = onCircle(random.next()) * random.between(0.0, 0.06 * height);
+    const double tilt = random.between(0.0, 0.06 * height);
+    const glm::dvec2 lean = tilt * onCircle(random.next());
     Profile profile({1.7 * radius, -0.4});
     profile.curve({1.3 * radius, 0.1}, {radius, 0.3}, {radius, 0.2 * height, 0.0, 0.0, 0.3 * lean});
     profile.curve({0.9 * radius, 0.45 * height, 0.0, 0.0, 0.7 * lean}, {0.7 * radius, 0.7 * height, 0.0, 0.0, lean},
@@ -84,7 +85,8 @@ void addTree(CityKit& kit, Random& random, std::size_t leaves, double height, do
         for (std::size_t i = 0; i < leaves / 3; ++i) {
             const glm::dvec3 out = random.direction();
             const glm::dvec3 sprout = glm::normalize(out + 0.7 * random.direction() + glm::dvec3(0.0, 0.2, 0.0));
-            appendLeaf(points, random, centre + out * (half * random.between(0.72, 1.0)), sprout, random.between(0.28, 0.45));
+            const double far = half * random.between(0.72, 1.0);
+            appendLeaf(points, random, centre + far * out, sprout, random.between(0.28, 0.45));
         }
     }
     kit.addPart(model, name + " crown", std::move(points), {{0.16F, 0.32F, 0.06F}, {0.22F, 0.38F, 0.08F}, {0.3F, 0.36F, 0.07F}}, kLeaf);
@@ -137,11 +139,11 @@ void addWillow(CityKit& kit, Random& random, std::size_t fronds, const std::stri
         frond.spine[1] = start + swing * out + glm::dvec3(0.0, 0.35, 0.0);
         frond.spine[2] = start + 1.15 * swing * out + sway - glm::dvec3(0.0, 0.5 * drop, 0.0);
         frond.spine[3] = start + swing * out + 0.5 * sway - glm::dvec3(0.0, drop, 0.0);
-        const double half = random.between(0.008, 0.018);
+        const double half = random.between(0.01, 0.018);
         frond.half[0] = half;
         frond.half[1] = half;
         frond.half[2] = 1.2 * half;
-        frond.half[3] = 0.8 * half;
+        frond.half[3] = half;
         const glm::dvec2 facing = onCircle(random.next());
         frond.side = {facing.x, 0.0, facing.y};
         appendBlade(points, frond);
@@ -154,8 +156,9 @@ void addReeds(CityKit& kit, Random& random, std::size_t blades, const std::strin
     Model model;
     std::vector<glm::vec3> points;
     for (std::size_t i = 0; i < blades; ++i) {
-        const glm::dvec3 foot(random.between(-0.6, 0.6), -0.05, random.between(-0.6, 0.6));
-        const glm::dvec2 lean = onCircle(random.next()) * random.between(0.1, 0.6);
+        const glm::dvec3 foot = random.within(0.6) * glm::dvec3(1.0, 0.0, 1.0);
+        const double tilt = random.between(0.1, 0.6);
+        const glm::dvec2 lean = tilt * onCircle(random.next());
         const double height = random.between(1.5, 2.7);
         const glm::dvec3 out(lean.x, 0.0, lean.y);
         const double half = random.between(0.007, 0.014);

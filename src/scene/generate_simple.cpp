@@ -25,7 +25,7 @@ constexpr Material kGlossy{MaterialKind::plastic, 0.35F, 0.12F};
 
 // A sheet of 4 x 4 points in a random pose, each moved by chance as far as its neighbours are away.
 void appendRandomPatch(std::vector<glm::vec3>& points, Random& random, double size) {
-    const glm::dvec3 centre(random.between(-1.0, 1.0), random.between(-1.0, 1.0), random.between(-1.0, 1.0));
+    const glm::dvec3 centre = random.within(1.0);
     const glm::dvec3 u = random.direction();
     const glm::dvec3 other = random.direction();
     // Two directions may agree so well that nothing is left of their difference.
@@ -34,8 +34,7 @@ void appendRandomPatch(std::vector<glm::vec3>& points, Random& random, double si
     v = length > 1e-3 ? v / length : glm::dvec3(u.y, u.z, u.x);
     for (int j = 0; j < 4; ++j) {
         for (int i = 0; i < 4; ++i) {
-            const glm::dvec3 chance(random.between(-0.5, 0.5), random.between(-0.5, 0.5), random.between(-0.5, 0.5));
-            points.emplace_back(centre + size * ((i / 3.0 - 0.5) * u + (j / 3.0 - 0.5) * v + 0.5 * chance));
+            points.emplace_back(centre + size * ((i / 3.0 - 0.5) * u + (j / 3.0 - 0.5) * v + 0.5 * random.within(0.5)));
         }
     }
 }
@@ -119,7 +118,7 @@ Scene generateSpheres(const Making& making) {
         const double room = (0.5 - sizes[size]) * cell;
         const glm::dvec3 corner(static_cast<double>(i % cells), static_cast<double>(i / (cells * cells)),
                                 static_cast<double>(i / cells % cells));
-        const glm::dvec3 off(random.between(-room, room), random.between(-room, room), random.between(-room, room));
+        const glm::dvec3 off = random.within(room);
         place(scene, scene.meshes[size].name, "sphere " + std::to_string(i + 1), glm::vec3(cell * (corner + 0.5) - 1.0 + off),
               kColors[random.below(kColors.size())]);
         making.tell(i, making.count);
