@@ -150,7 +150,8 @@ void buildAround(Builder& builder, const std::vector<Model>& middle, const glm::
 
 void buildGarden(Builder& builder, const glm::dvec2& centre) {
     for (int i = 0; i < 16; ++i) {
-        const glm::dvec2 at = centre + 6.5 * glm::dvec2(i % 4 - 1.5, i / 4 - 1.5);
+        const int row = i / 4;
+        const glm::dvec2 at = centre + 6.5 * glm::dvec2(i % 4 - 1.5, row - 1.5);
         plantTree(builder, at, 1.6);
     }
 }
@@ -173,7 +174,8 @@ void plantGrove(Builder& builder, std::uint64_t count) {
                                   double most) {
         std::vector<glm::dvec2> places;
         for (std::size_t i = 0; i < rows * rows; ++i) {
-            const glm::dvec2 cell(static_cast<double>(i % rows), static_cast<double>(i / rows));
+            const std::size_t row = i / rows;
+            const glm::dvec2 cell(static_cast<double>(i % rows), static_cast<double>(row));
             const glm::dvec2 at = centre + spacing * (cell - 0.5 * static_cast<double>(rows - 1));
             places.push_back(jittered(builder.random(), at, 0.3 * spacing));
         }

@@ -111,8 +111,9 @@ Scene generateColumns(const Making& making) {
     place(scene, "floor", "floor", glm::dvec3(0.0), {0.5F, 0.44F, 0.38F});
     Random random(making.seed);
     for (std::size_t i = 0; i < making.count; ++i) {
+        const std::size_t row = i / across;
         const double x = kSpacing * (static_cast<double>(i % across) + 0.5 - 0.5 * static_cast<double>(across));
-        const double z = kSpacing * (0.5 * static_cast<double>(along) - 0.5 - static_cast<double>(i / across));
+        const double z = kSpacing * (0.5 * static_cast<double>(along) - 0.5 - static_cast<double>(row));
         place(scene, "column", "column " + std::to_string(i + 1), {x, 0.0, z}, kStones[random.below(kStones.size())]);
         if (i % across + 1 < across && i + 1 < making.count) {
             place(scene, "beam", "beam " + std::to_string(i + 1), {x + 0.5 * kSpacing, 0.0, z}, kStones[random.below(kStones.size())]);

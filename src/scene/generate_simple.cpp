@@ -116,8 +116,9 @@ Scene generateSpheres(const Making& making) {
     for (std::uint64_t i = 0; i < making.count; ++i) {
         const std::size_t size = random.below(sizes.size());
         const double room = (0.5 - sizes[size]) * cell;
-        const glm::dvec3 corner(static_cast<double>(i % cells), static_cast<double>(i / (cells * cells)),
-                                static_cast<double>(i / cells % cells));
+        const std::uint64_t row = i / cells;
+        const std::uint64_t layer = row / cells;
+        const glm::dvec3 corner(static_cast<double>(i % cells), static_cast<double>(layer), static_cast<double>(row % cells));
         const glm::dvec3 off = random.within(room);
         place(scene, scene.meshes[size].name, "sphere " + std::to_string(i + 1), glm::vec3(cell * (corner + 0.5) - 1.0 + off),
               kColors[random.below(kColors.size())]);
