@@ -34,11 +34,12 @@ public:
         RenderOptions options;
         options.mode = DiceMode::classical;
         const PatchSet patches = uploadPatches(scene, session_.memory, session_.timeline);
-        const frame_params frame = setUpFrame(camera, options, layOutFilm(options), patches);
+        frame_params frame = setUpFrame(camera, options, layOutFilm(options), false);
+        setPatches(frame, patches);
         const std::vector<placed_object> placed = placeObjects(scene, eyeFromWorld(camera));
         const DeviceBuffer objects = buffer(placed.data(), placed.size() * sizeof(placed_object));
         const DeviceBuffer points = buffer(at.data(), at.size() * sizeof(evaluate_point));
-        const DeviceBuffer out = session_.memory.allocate("results", at.size() * 9 * sizeof(float));
+        const DeviceBuffer out = session_.memory.allocate(Purpose::scene, "results", at.size() * 9 * sizeof(float));
         Timeline& timeline = session_.timeline;
         enqueuePlace(session_, frame, patches, objects.cl(), patches.eyePoints.cl());
         timeline.launch(
@@ -53,7 +54,7 @@ public:
 
 private:
     [[nodiscard]] DeviceBuffer buffer(const void* data, std::size_t bytes) {
-        DeviceBuffer result = session_.memory.allocate("input", bytes);
+        DeviceBuffer result = session_.memory.allocate(Purpose::scene, "input", bytes);
         session_.timeline.write(result.cl(), data, bytes);
         return result;
     }

@@ -176,7 +176,7 @@ TEST_F(FrameState, OptionsOutOfRangeAreRefusedByName) {
         {"height", [](RenderOptions& o) { o.height = -5; }},
         {"pixel samples", [](RenderOptions& o) { o.pixelSamples = 0; }},
         {"pixel samples", [](RenderOptions& o) { o.pixelSamples = 17; }},
-        {"batch", [](RenderOptions& o) { o.batch = 0; }},
+        {"bucket width", [](RenderOptions& o) { o.bucketHeight = 8; }},
         {"batch", [](RenderOptions& o) { o.batch = (1U << 20U) + 1; }},
         {"split bound", [=](RenderOptions& o) { o.splitBound = nan; }},
         {"split bound", [](RenderOptions& o) { o.splitBound = 0.0F; }},

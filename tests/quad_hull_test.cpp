@@ -6,6 +6,7 @@
 
 #include "core/frame_shared.h"
 #include "device/lanes_host.h"
+#include "split/quad_host.h"
 #include "split/quad_shared.h"
 #include "surface/patch_shared.h"
 
@@ -162,6 +163,42 @@ TEST(QuadHull, ShrinksWithItsRange) {
             }
         }
     }
+}
+
+// A patch of the square [0, 1] x [0, 1] at depth 4, pixels wide, whose side v = 0 is drawn as one point: where the record beside it begins,
+// at (-9, -9). A range that touches that side, but not the record's, must not be culled where only the record is seen.
+TEST(QuadHull, ARangeAtAPoleHoldsTheRecordBesideIt) {
+    HostPatches patches;
+    patches.eyePoints.assign(BEZIER_FLOATS + RECORD_FLOATS, 4.0F);
+    for (std::size_t k = 0; k < 16; ++k) {
+        const float u = static_cast<float>(k % 4) / 3.0F, v = static_cast<float>(k / 4) / 3.0F;
+        patches.eyePoints[k] = v > 0.0F ? u : 0.0F;
+        patches.eyePoints[16 + k] = v;
+    }
+    for (std::size_t k = 0; k < 4; ++k) {
+        const float along = static_cast<float>(k) / 3.0F;
+        patches.eyePoints[BEZIER_FLOATS + k] = -9.0F * (1.0F - along);
+        patches.eyePoints[BEZIER_FLOATS + 4 + k] = -9.0F + 10.0F * along;
+        patches.eyePoints[BEZIER_FLOATS + 12 + k] = 1.0F;
+    }
+    patches.placed.push_back({0, 0, 0, SIDE_DEGENERATE | SIDE_RECORDED << 3U, 0});
+    patches.records.push_back({});
+    frame_params frame{};
+    frame.watertight = 1;
+    frame.bezier_patches = frame.gregory_end = frame.rational_end = frame.patches = 1;
+    frame.focal = frame.dicing_focal = 4.0F;
+    frame.near_plane = frame.dicing_near = 0.1F;
+    frame.dicing_length = 1.0F;
+    frame.grid_bits = 4;
+    frame.level_most = QUAD_LEVEL_MOST;
+    frame.cull_left = frame.cull_bottom = -10.0F;
+    frame.cull_right = frame.cull_top = -8.0F;
+    const std::uint32_t half = 1U << 23U, whole = 1U << 24U;
+    const std::uint32_t ones = RATE_ONE * 0x01010101U;
+    const quad_range atPole{0, ones, 0x0101U, {half, whole, whole, half}, {0, 0, half, half}};
+    EXPECT_NE(splitOnHost(frame, patches, atPole).action, 0);
+    const quad_range away{0, ones, 0x0101U, {half, whole, whole, half}, {half, half, whole, whole}};
+    EXPECT_EQ(splitOnHost(frame, patches, away).action, 0);
 }
 
 }  // namespace

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <set>
 #include <stdexcept>
 
 namespace tessera::splitting {
@@ -48,9 +49,11 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void dump_borders(
 
 // Without the kernels of other stations, which take much longer to build.
 KernelSources quadsAlone(KernelSources sources, Shape shape) {
+    // split.cl for PoCL 3.1: without it LLVM crashes when it compiles quad_scatter.
+    const std::set<std::string> kept = {"split/feed.cl",        "split/split.cl",      "split/quad_split.cl",
+                                        "split/local_quads.cl", "split/local_book.cl", "surface/place.cl"};
     for (auto& [file, text] : sources) {
-        const bool kept = file == "split/split.cl" || file == "split/quad_split.cl" || file == "surface/place.cl";
-        if (file.ends_with(".cl") && !kept) text.clear();
+        if (file.ends_with(".cl") && !kept.contains(file)) text.clear();
     }
     sources.at("surface/evaluate.cl") = dumpKernel;
     if (shape == Shape::gpu) {
@@ -95,12 +98,17 @@ void QuadRig::place(const Scene& scene, const Camera& camera, const RenderOption
     session_.timeline.finish();
     session_.timeline.restart(false);
     patches_ = uploadPatches(scene, session_.memory, session_.timeline);
-    frame_ = setUpFrame(camera, options, layOutFilm(options), patches_);
+    frame_ = setUpFrame(camera, options, layOutFilm(options), false);
+    setPatches(frame_, patches_);
+    // All patches, as the host splits them; and nothing is drawn that could hide any.
+    frame_.feed_boxes = 0;
+    frame_.occlusion = 0;
+    patches_.dicingPoints = patches_.eyePoints;
     host_ = HostPatches{};
     host_.eyePoints = placeFor(scene, camera, patches_.eyePoints.cl());
     if (options.dicingCamera) {
-        dicing_ = session_.memory.allocate("the patches in the dicing camera's space", patches_.eyeBytes());
-        host_.dicingPoints = placeFor(scene, *options.dicingCamera, dicing_.cl());
+        patches_.dicingPoints = session_.memory.allocate(Purpose::scene, "the patches in the dicing camera's space", patches_.eyeBytes());
+        host_.dicingPoints = placeFor(scene, *options.dicingCamera, patches_.dicingPoints.cl());
     }
     host_.placed = readAll<placed_patch>(session_.timeline, patches_.placed.cl(), patches_.patches);
     host_.records = readAll<edge_info>(session_.timeline, patches_.records.cl(), patches_.recordCount);
@@ -109,7 +117,7 @@ void QuadRig::place(const Scene& scene, const Camera& camera, const RenderOption
 std::vector<float> QuadRig::placeFor(const Scene& scene, const Camera& camera, const cl::Buffer& to) {
     const std::vector<placed_object> placed = placeObjects(scene, eyeFromWorld(camera));
     const std::size_t bytes = placed.size() * sizeof(placed_object);
-    const DeviceBuffer objects = session_.memory.allocate("the objects", bytes);
+    const DeviceBuffer objects = session_.memory.allocate(Purpose::scene, "the objects", bytes);
     session_.timeline.write(objects.cl(), placed.data(), bytes);
     enqueuePlace(session_, frame_, patches_, objects.cl(), to);
     return readAll<float>(session_.timeline, to, patches_.eyeBytes() / sizeof(float));
@@ -125,9 +133,9 @@ std::vector<Border> QuadRig::borders(const std::vector<quad_range>& diced) {
 
 void QuadRig::dump(const quad_range* diced, std::size_t count, std::vector<Border>& borders) {
     const std::size_t places = count * borderPlaces;
-    const DeviceBuffer ranges = session_.memory.allocate("diced ranges", count * sizeof(quad_range));
+    const DeviceBuffer ranges = session_.memory.allocate(Purpose::scene, "diced ranges", count * sizeof(quad_range));
     std::array<DeviceBuffer, 6> out;
-    for (DeviceBuffer& buffer : out) buffer = session_.memory.allocate("a dump of borders", places * 4);
+    for (DeviceBuffer& buffer : out) buffer = session_.memory.allocate(Purpose::scene, "a dump of borders", places * 4);
     session_.timeline.write(ranges.cl(), diced, count * sizeof(quad_range));
     session_.launch(
         session_.kernels.with("dump_borders", frame_, patches_.eyePoints.cl(), patches_.placed.cl(), patches_.records.cl(), ranges.cl(),
@@ -161,19 +169,21 @@ QuadPass::QuadPass(QuadRig& rig, split_limits limits, std::uint64_t spare)
     queues_.setMode(DiceMode::watertight);
     queues_.reserve(limits_, bound_ + spare_);
     queues_.restart();
+    queues_.enqueueFeed(rig.frame(), rig.patches());
+    state_ = queues_.readState();
     spareAtFirst_ = readSpare();
 }
 
 void QuadPass::step() {
-    queues_.enqueueIteration(rig_.frame(), limits_, rig_.patches(), rig_.dicingPoints());
+    queues_.enqueueIteration(rig_.frame(), limits_, rig_.patches());
     state_ = queues_.readState();
 }
 
 void QuadPass::stepBreadth() {
-    const std::uint32_t all = state_.stack_count + (rig_.patches().patches - state_.next_input);
+    const std::uint32_t all = state_.stack_count + (state_.feed_count - state_.next_input);
     queues_.growStack(2 * std::uint64_t{all}, state_.stack_count);
-    queues_.reserve({all, all}, 0);
-    queues_.enqueueIteration(rig_.frame(), {all, all}, rig_.patches(), rig_.dicingPoints());
+    queues_.reserve({all, all, all}, 0);
+    queues_.enqueueIteration(rig_.frame(), {all, all, all}, rig_.patches());
     state_ = queues_.readState();
 }
 
@@ -208,12 +218,12 @@ QuadsFound findAll(QuadPass& pass, const Step& step) {
 }  // namespace
 
 QuadsFound findBounded(QuadRig& rig, std::uint32_t p) {
-    QuadPass pass(rig, {p, 2 * p}, 0);
+    QuadPass pass(rig, {p, 2 * p, p}, 0);
     return findAll(pass, [](QuadPass& one) { one.step(); });
 }
 
 QuadsFound findBreadth(QuadRig& rig) {
-    QuadPass pass(rig, {1, 1}, 0);
+    QuadPass pass(rig, {1, 1, 1}, 0);
     return findAll(pass, [](QuadPass& one) { one.stepBreadth(); });
 }
 

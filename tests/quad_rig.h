@@ -46,7 +46,6 @@ public:
     [[nodiscard]] const frame_params& frame() const { return frame_; }
     [[nodiscard]] const PatchSet& patches() const { return patches_; }
     [[nodiscard]] const HostPatches& host() const { return host_; }
-    [[nodiscard]] const cl::Buffer& dicingPoints() const { return frame_.dicing_apart != 0 ? dicing_.cl() : patches_.eyePoints.cl(); }
 
     // What quad_border_vertices() and patch_vertex() make of diced ranges.
     [[nodiscard]] std::vector<Border> borders(const std::vector<quad_range>& diced);
@@ -57,7 +56,6 @@ private:
 
     DeviceSession session_;
     PatchSet patches_;
-    DeviceBuffer dicing_;
     frame_params frame_{};
     HostPatches host_;
 };
@@ -77,7 +75,7 @@ public:
     [[nodiscard]] std::uint64_t processed() const { return wide(state_.processed_low, state_.processed_high); }
     [[nodiscard]] std::uint64_t diced() const { return wide(state_.diced_low, state_.diced_high); }
     [[nodiscard]] std::uint64_t culled() const { return wide(state_.culled_low, state_.culled_high); }
-    [[nodiscard]] bool over() const { return splitOver(state_, rig_.patches()); }
+    [[nodiscard]] bool over() const { return splitOver(state_); }
     [[nodiscard]] std::vector<quad_range> stack() { return queues_.readStack<quad_range>(state_.stack_count); }
     [[nodiscard]] bool spareUntouched() { return same(readSpare(), spareAtFirst_); }
     [[nodiscard]] std::uint64_t bound() const { return bound_; }

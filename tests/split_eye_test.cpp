@@ -99,7 +99,7 @@ RenderOptions optionsOf(int depth) {
 // end: these pictures have fewer than 30000 ranges.
 std::vector<range_t> diceAll(SplitRig& rig, std::uint32_t p) {
     const Outcome expected = depthFirst(rig.patches().patches, rig.hostBound(), 200'000);
-    SplitPass pass(rig, {p, p}, 64);
+    SplitPass pass(rig, {p, p, p}, 64);
     std::vector<range_t> diced;
     std::uint64_t processed = 0;
     while (!pass.over() && !::testing::Test::HasFailure()) {

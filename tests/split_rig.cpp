@@ -16,7 +16,9 @@ namespace {
 // Without the kernels of other stations, which take much longer to build.
 KernelSources splitAlone(KernelSources sources) {
     for (auto& [file, text] : sources) {
-        if (file.ends_with(".cl") && file != "split/split.cl" && file != "surface/place.cl") text.clear();
+        const bool kept = file == "split/split.cl" || file == "split/feed.cl" || file == "split/local_boxes.cl" ||
+                          file == "split/local_book.cl" || file == "surface/place.cl" || file == "surface/boxes.cl";
+        if (file.ends_with(".cl") && !kept) text.clear();
     }
     return sources;
 }
@@ -44,12 +46,13 @@ void SplitRig::place(const Scene& scene, const Camera& camera, const RenderOptio
     session_.timeline.finish();
     session_.timeline.restart(false);
     patches_ = uploadPatches(scene, session_.memory, session_.timeline);
-    frame_ = setUpFrame(camera, options, layOutFilm(options), patches_);
+    frame_ = setUpFrame(camera, options, layOutFilm(options), false);
+    setPatches(frame_, patches_);
     eyePoints_.clear();
     if (patches_.patches == 0) return;
     const std::vector<placed_object> placed = placeObjects(scene, eyeFromWorld(camera));
     const std::size_t bytes = placed.size() * sizeof(placed_object);
-    const DeviceBuffer objects = session_.memory.allocate("the objects", bytes);
+    const DeviceBuffer objects = session_.memory.allocate(Purpose::scene, "the objects", bytes);
     session_.timeline.write(objects.cl(), placed.data(), bytes);
     enqueuePlace(session_, frame_, patches_, objects.cl(), patches_.eyePoints.cl());
     eyePoints_.resize(patches_.eyeBytes() / sizeof(float));
@@ -69,6 +72,8 @@ SplitPass::SplitPass(SplitRig& rig, split_limits limits, std::uint64_t spare)
     : rig_(rig), limits_(limits), bound_((std::uint64_t{rig.frame().max_depth} + 1) * limits.batch), spare_(spare), queues_(rig.session()) {
     queues_.reserve(limits_, bound_ + spare_);
     queues_.restart();
+    queues_.enqueueFeed(rig.frame(), rig.patches());
+    state_ = queues_.readState();
     spareAtFirst_ = readSpare();
 }
 
@@ -78,10 +83,10 @@ void SplitPass::step() {
 }
 
 void SplitPass::stepBreadth() {
-    const std::uint32_t all = state_.stack_count + (rig_.patches().patches - state_.next_input);
+    const std::uint32_t all = state_.stack_count + (state_.feed_count - state_.next_input);
     queues_.growStack(2 * std::uint64_t{all}, state_.stack_count);
-    queues_.reserve({all, all}, 0);
-    queues_.enqueueIteration(rig_.frame(), {all, all}, rig_.patches());
+    queues_.reserve({all, all, all}, 0);
+    queues_.enqueueIteration(rig_.frame(), {all, all, all}, rig_.patches());
     state_ = queues_.readState();
 }
 

@@ -63,7 +63,7 @@ public:
     [[nodiscard]] std::uint64_t processed() const { return wide(state_.processed_low, state_.processed_high); }
     [[nodiscard]] std::uint64_t diced() const { return wide(state_.diced_low, state_.diced_high); }
     [[nodiscard]] std::uint64_t culled() const { return wide(state_.culled_low, state_.culled_high); }
-    [[nodiscard]] bool over() const { return splitOver(state_, rig_.patches()); }
+    [[nodiscard]] bool over() const { return splitOver(state_); }
     [[nodiscard]] std::vector<range_t> stack() { return queues_.readStack(state_.stack_count); }
     // Whether the spare ranges hold what they held at first.
     [[nodiscard]] bool spareUntouched() { return same(readSpare(), spareAtFirst_); }

@@ -127,7 +127,7 @@ void iterate(SplitPass& pass, const Trial& trial, Report& report) {
 Report run(SplitRig& rig, const Trial& trial, bool outgrow = false) {
     rig.place(sceneOf(trial.plan), Camera{}, optionsOf(trial.plan));
     const Outcome expected = depthFirst(rig.patches().patches, decisionsOf(trial.plan));
-    SplitPass pass(rig, {trial.plan.batch, trial.readyRoom}, 2 * std::uint64_t{trial.plan.batch});
+    SplitPass pass(rig, {trial.plan.batch, trial.readyRoom, trial.plan.batch}, 2 * std::uint64_t{trial.plan.batch});
     Report report;
     while (!pass.over() && pass.processed() <= expected.processed && !::testing::Test::HasFatalFailure()) {
         if (outgrow) pass.growStack(pass.state().stack_count + 3 * std::uint64_t{trial.plan.batch});
@@ -203,7 +203,7 @@ TEST(SplitStack, EachIterationIsThatOfTheAlgorithmOnPaper) {
         Trial trial = randomTrial(random, {1, 2, 3, 16, 33, 256, 700});
         SCOPED_TRACE(trial.text());
         rig.place(sceneOf(trial.plan), Camera{}, optionsOf(trial.plan));
-        SplitPass pass(rig, {trial.plan.batch, trial.plan.batch}, 0);
+        SplitPass pass(rig, {trial.plan.batch, trial.plan.batch, trial.plan.batch}, 0);
         BoundedModel model(rig.patches().patches, trial.plan.batch, decisionsOf(trial.plan));
         while (!model.over()) {
             pass.step();
@@ -223,33 +223,36 @@ struct Breakage {
 
 constexpr const char* splitKernels = "split/split.cl";
 
+constexpr const char* childSlot = "uint child_slot = plan.stack_base + 2u * before.splits;";
+
+// All of an iteration's splits, which the kernels themselves need not know at that place.
+constexpr const char* allSplits = "uint all = 0u; for (uint j = 0; j < plan.count; ++j) all += actions[j] >= ACTION_SPLIT_U ? 1u : 0u; ";
+
 // The children of a batch stand on the stack in the reverse order of their parents.
 Breakage reversedParents() {
     return {"reversed parents",
-            {{splitKernels, "uint child_slot = state->stack_base + 2u * before.splits;",
-              "uint child_slot = state->stack_count - 2u - 2u * before.splits;"},
+            {{splitKernels, childSlot, std::string(allSplits) + "uint child_slot = plan.stack_base + 2u * (all - 1u - before.splits);"},
              {splitKernels, "child_slot += 2u;", "child_slot -= 2u;"}}};
 }
 
 // First all lower halves, then all upper ones: NONINTERLEAVED in the thesis, figure 4.4.
 Breakage halvesApart() {
     return {"halves apart",
-            {{splitKernels, "uint child_slot = state->stack_base + 2u * before.splits;",
-              "uint child_slot = state->stack_base + before.splits; uint apart = (state->stack_count - state->stack_base) / 2u;"},
+            {{splitKernels, childSlot, std::string(allSplits) + "uint child_slot = plan.stack_base + before.splits;"},
              {splitKernels, "child_slot += 2u;", "child_slot += 1u;"},
              {splitKernels, "place_children(batch[i], action, stack, child_slot);",
-              "place_children(batch[i], action, stack, child_slot, apart);"},
+              "place_children(batch[i], action, stack, child_slot, all);"},
              {splitKernels, "global range_t* stack, uint slot)", "global range_t* stack, uint slot, uint apart)"},
-             {splitKernels, "stack[slot + k] = child;", "stack[slot + k * apart] = child;"}}};
+             {splitKernels, "stack[slot + k] = box_child(parent, action, k);", "stack[slot + k * apart] = box_child(parent, action, k);"}}};
 }
 
 // Fresh patches stand above the ranges of the stack in the batch, not below.
 Breakage freshAbove() {
-    return {"fresh above",
-            {{splitKernels, "if (i < plan.fresh) {", "if (i >= plan.count - plan.fresh) {"},
-             {splitKernels, "range.patch_index = state->next_input + i;",
-              "range.patch_index = state->next_input + (i - (plan.count - plan.fresh));"},
-             {splitKernels, "stack[plan.stack_base + (i - plan.fresh)]", "stack[plan.stack_base + i]"}}};
+    return {
+        "fresh above",
+        {{splitKernels, "if (i < from.plan.fresh) {", "if (i >= from.plan.count - from.plan.fresh) {"},
+         {splitKernels, "range.patch_index = from.fresh[i];", "range.patch_index = from.fresh[i - (from.plan.count - from.plan.fresh)];"},
+         {splitKernels, "from.stack[from.plan.stack_base + (i - from.plan.fresh)]", "from.stack[from.plan.stack_base + i]"}}};
 }
 
 // Fresh patches are pushed on the others while there are any: half of a batch is fresh though the stack could fill it.

@@ -3,7 +3,7 @@
 
 #include "sample_meshes.h"
 
-#include "render/split_loop.h"
+#include "render/plan_memory.h"
 #include "split/host_split.h"
 #include "tessera/renderer.h"
 
@@ -75,7 +75,7 @@ std::vector<range_t> randomRanges(Random& random, std::uint32_t patches, std::si
 std::vector<int> deviceActions(SplitRig& rig, const std::vector<range_t>& ranges) {
     DeviceSession& session = rig.session();
     const std::size_t count = ranges.size();
-    const auto buffer = [&](std::size_t bytes) { return session.memory.allocate("a test's buffer", bytes); };
+    const auto buffer = [&](std::size_t bytes) { return session.memory.allocate(Purpose::scene, "a test's buffer", bytes); };
     const DeviceBuffer stack = buffer(count * sizeof(range_t));
     const DeviceBuffer batch = buffer(count * sizeof(range_t));
     const DeviceBuffer actions = buffer(count);
@@ -83,12 +83,11 @@ std::vector<int> deviceActions(SplitRig& rig, const std::vector<range_t>& ranges
     const DeviceBuffer stateBuffer = buffer(sizeof(split_state));
     split_state state{};
     state.stack_count = static_cast<std::uint32_t>(count);
-    state.next_input = rig.patches().patches;
     session.timeline.write(stack.cl(), ranges.data(), count * sizeof(range_t));
     session.timeline.write(stateBuffer.cl(), &state, sizeof state);
-    const split_limits limits{state.stack_count, state.stack_count};
-    session.launch(session.kernels.with("split_bound", rig.frame(), limits, rig.patches().eyePoints.cl(), stack.cl(), batch.cl(),
-                                        actions.cl(), sums.cl(), stateBuffer.cl()),
+    const split_limits limits{state.stack_count, state.stack_count, state.stack_count};
+    session.launch(session.kernels.with("split_bound", rig.frame(), limits, rig.patches().eyePoints.cl(), rig.patches().feed.cl(),
+                                        stack.cl(), batch.cl(), actions.cl(), sums.cl(), stateBuffer.cl()),
                    "split_bound");
     std::vector<std::uint8_t> read(count);
     session.timeline.read(actions.cl(), read.data(), count);
@@ -135,7 +134,7 @@ void expectSame(const Found& found, const Outcome& expected) {
 
 // Bounded at p ranges; the stack is judged after every iteration.
 Found findBounded(SplitRig& rig, std::uint32_t p) {
-    SplitPass pass(rig, {p, 2 * p}, 64);
+    SplitPass pass(rig, {p, 2 * p, p}, 64);
     Found found;
     const auto take = [&] {
         const std::vector<range_t> ready = pass.takeReady();
@@ -155,7 +154,7 @@ Found findBounded(SplitRig& rig, std::uint32_t p) {
 }
 
 Found findBreadth(SplitRig& rig) {
-    SplitPass pass(rig, {1, 1}, 0);
+    SplitPass pass(rig, {1, 1, 1}, 0);
     Found found;
     while (!pass.over() && !::testing::Test::HasFailure()) {
         pass.stepBreadth();
@@ -232,7 +231,8 @@ TEST(SplitMethods, CountAlikeInWholeFrames) {
                 EXPECT_EQ(statistics.rangesProcessed, expected.processed);
                 EXPECT_EQ(statistics.rangesDiced, expected.diced.size());
                 EXPECT_EQ(statistics.rangesCulled, expected.culled);
-                EXPECT_TRUE(method != SplitMethod::bounded || statistics.stackPeak <= boundedStack(options));
+                EXPECT_TRUE(method != SplitMethod::bounded ||
+                            statistics.stackPeak <= queueRoom(options, batch, listDevices().front()).stack);
             }
         }
     }
@@ -245,7 +245,7 @@ std::uint64_t boundedBytes(SplitRig& rig, std::size_t patches, const RenderOptio
     rig.place(scene, reference::cameraAt({0, 0, 9}, {0, 0, 0}, 60), options);
     const std::uint64_t before = rig.session().memory.bytes();
     rig.session().memory.restartPeak();
-    SplitPass pass(rig, boundedLimits(options), 0);
+    SplitPass pass(rig, queueRoom(options, options.batch, rig.session().device.info).limits, 0);
     while (!pass.over()) {
         pass.step();
         static_cast<void>(pass.takeReady());
@@ -259,7 +259,8 @@ TEST(SplitQueues, BytesOfTheBoundedMethodDoNotDependOnThePatches) {
     for (const std::uint32_t batch : {300U, 1000U}) {
         options.batch = batch;
         const std::uint64_t few = boundedBytes(rig, 1, options);
-        EXPECT_LE(few, SplitQueues::bytes(boundedLimits(options), boundedStack(options), DiceMode::classical));
+        const QueueRoom room = queueRoom(options, batch, listDevices().front());
+        EXPECT_LE(few, SplitQueues::bytes(room.limits, room.stack, DiceMode::classical));
         EXPECT_EQ(boundedBytes(rig, 20 * std::size_t{batch}, options), few);
     }
 }

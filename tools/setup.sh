@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # Installs what Tessera needs from the packages of Debian 12, Ubuntu 24.04 or later.
 # tools/setup.sh: to build and to render. tools/setup.sh --with-tests: to run the tests and the checks of the sources as well.
+# tools/setup.sh --with-bench: to run the benchmarks and the evaluation with its plots (bench/evaluate.py).
 # Says nothing and changes nothing where all of it is there.
 set -euo pipefail
 
@@ -12,7 +13,8 @@ wanted=(
 case "${1-}" in
     "") ;;
     --with-tests) wanted+=(libgtest-dev libbenchmark-dev clang libclang-rt-dev llvm clang-format clang-tidy) ;;
-    *) echo "usage: tools/setup.sh [--with-tests]" >&2; exit 2 ;;
+    --with-bench) wanted+=(libbenchmark-dev python3-matplotlib) ;;
+    *) echo "usage: tools/setup.sh [--with-tests | --with-bench]" >&2; exit 2 ;;
 esac
 
 fail() {

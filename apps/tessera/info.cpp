@@ -1,14 +1,22 @@
-// `tessera info`: what a scene holds.
+// `tessera info`: what a scene holds, and how a frame of it would use memory.
+#include "choose_camera.h"
 #include "commands.h"
 #include "console.h"
 #include "load_scene.h"
+#include "mode_options.h"
+#include "plan_options.h"
+#include "render_arguments.h"
+#include "show_plan.h"
 #include "tessera/scene.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <vector>
 
 namespace tessera::program {
 
@@ -78,7 +86,8 @@ Json objectJson(const Scene& scene, const Object& object) {
     return json;
 }
 
-std::string infoJson(const LoadedScene& loaded) {
+// Without the plan.
+Json sceneJson(const LoadedScene& loaded) {
     const Scene& scene = loaded.scene;
     const Bounds bounds = worldBounds(scene);
     Json json = {{"scene", scene.name}, {"patches", scene.placedPatchCount()}, {"patch_types", Json::object()}};
@@ -105,7 +114,7 @@ std::string infoJson(const LoadedScene& loaded) {
         json["meshes"].push_back({{"name", mesh.name}, {"type", std::string(name(mesh.kind))}, {"patches", mesh.patchCount()}});
     }
     json["warnings"] = loaded.warnings;
-    return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return json;
 }
 
 std::string cameraText(const Camera& camera) {
@@ -167,29 +176,66 @@ std::string infoText(const LoadedScene& loaded) {
     return text;
 }
 
-void showInfo(const SceneArguments& arguments, bool asJson) {
-    const LoadedScene loaded = loadScene(arguments);
-    if (asJson) {
-        printResult(infoJson(loaded));
+struct InfoArguments {
+    RenderArguments render;  // what a frame would be rendered with
+    bool json = false;
+    bool plan = false;
+};
+
+struct ShownPlan {
+    DeviceInfo device;
+    MemoryPlan plan;
+};
+
+std::optional<ShownPlan> planFor(InfoArguments& arguments, const Scene& scene) {
+    if (!arguments.plan) return std::nullopt;
+    RenderOptions& options = arguments.render.options;
+    if (arguments.render.dicingCamera) options.dicingCamera = namedCamera(scene, *arguments.render.dicingCamera, "--dicing-camera");
+    const DeviceInfo device = findDevice(arguments.render.settings.device);
+    return ShownPlan{device, planMemory(options, scene, device)};
+}
+
+void showInfo(InfoArguments arguments) {
+    checkFrameOptions(arguments.render);
+    const LoadedScene loaded = loadScene(arguments.render.scene);
+    const std::optional<ShownPlan> shown = planFor(arguments, loaded.scene);
+    if (arguments.json) {
+        Json json = sceneJson(loaded);
+        if (shown) json["plan"] = planJson(shown->plan, shown->device);
+        printResult(json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n");
         return;
     }
     for (const std::string& warning : loaded.warnings) printNote(warning);
-    printResult(infoText(loaded));
+    printResult(infoText(loaded) + (shown ? planText(shown->plan, shown->device) : ""));
+}
+
+// --plan, and what needs it.
+void addPlanOptions(CLI::App& app, InfoArguments& arguments) {
+    CLI::Option* const plan =
+        app.add_flag("--plan", arguments.plan, "Tell how rendering it would use the device's memory")->group("Memory plan");
+    const std::vector<CLI::Option*> before = app.get_options();
+    app.option_defaults()->multi_option_policy(CLI::MultiOptionPolicy::TakeLast);
+    addSizeOptions(app, arguments.render.options);
+    addMemoryOptions(app, arguments.render.options);
+    addModeOptions(app, arguments.render, ModeOptions::ofMemory);
+    addDeviceOption(app, arguments.render.settings.device);
+    for (CLI::Option* const option : app.get_options()) {
+        if (std::find(before.begin(), before.end(), option) != before.end()) continue;
+        option->needs(plan);
+        if (option->get_group() == "Options") option->group("Memory plan");
+    }
 }
 
 }  // namespace
 
 Command addInfoCommand(CLI::App& app) {
-    struct Arguments {
-        SceneArguments scene;
-        bool json = false;
-    };
-    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds, and how its patches' edges meet");
+    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds, how its patches' edges meet, and what memory it takes");
     command->get_formatter()->column_width(34);
-    const auto arguments = std::make_shared<Arguments>();
-    addSceneArguments(*command, arguments->scene, "Options");
+    const auto arguments = std::make_shared<InfoArguments>();
+    addSceneArguments(*command, arguments->render.scene, "Options");
     command->add_flag("--json", arguments->json, "Print JSON instead of text");
-    return {command, [arguments] { showInfo(arguments->scene, arguments->json); }};
+    addPlanOptions(*command, *arguments);
+    return {command, [arguments] { showInfo(*arguments); }};
 }
 
 }  // namespace tessera::program

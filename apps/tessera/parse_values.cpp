@@ -32,7 +32,7 @@ constexpr std::array<NamedAov, 8> kAovs{{
     {"all", Aov::z | Aov::normal | Aov::object | Aov::patch | Aov::uv},
 }};
 
-constexpr std::array kMethods{SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded};
+constexpr std::array kMethods{SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded, SplitMethod::local};
 constexpr std::array kModes{DiceMode::watertight, DiceMode::classical};
 
 std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
@@ -48,14 +48,15 @@ std::vector<std::string_view> splitAtCommas(std::string_view text) {
 }
 
 // A side of a picture. Too many digits for an int is out of range, not malformed.
-int parseSide(std::string_view digits, std::string_view whole) {
+int parseSide(std::string_view digits, std::string_view whole, int least) {
     if (digits.empty() || digits.find_first_not_of("0123456789") != std::string_view::npos) {
         throw Error(inQuotes(whole) + " is no size: give WIDTHxHEIGHT in pixels, 1280x720 say");
     }
     int side = 0;
     const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), side);
-    if (result.ec != std::errc() || side < 1 || side > kLargestSide) {
-        throw Error(inQuotes(whole) + " is out of range: width and height must be 1 to " + std::to_string(kLargestSide) + " pixels");
+    if (result.ec != std::errc() || side < least || side > kLargestSide) {
+        throw Error(inQuotes(whole) + " is out of range: width and height must be " + std::to_string(least) + " to " +
+                    std::to_string(kLargestSide) + " pixels");
     }
     return side;
 }
@@ -91,10 +92,10 @@ Aov parseAov(std::string_view wanted) {
 
 }  // namespace
 
-Size parseSize(std::string_view text) {
+Size parseSize(std::string_view text, int least) {
     const std::size_t cross = text.find('x');
-    if (cross == std::string_view::npos) return {parseSide("", text), 0};
-    return {parseSide(text.substr(0, cross), text), parseSide(text.substr(cross + 1), text)};
+    if (cross == std::string_view::npos) return {parseSide("", text, least), 0};
+    return {parseSide(text.substr(0, cross), text, least), parseSide(text.substr(cross + 1), text, least)};
 }
 
 float parseNumber(std::string_view text) { return parseFinite<float>(text); }
@@ -115,6 +116,12 @@ long long parseWhole(std::string_view text, long long least, long long most) {
         throw Error(inQuotes(text) + " is out of range: " + std::to_string(least) + " to " + std::to_string(most));
     }
     return value;
+}
+
+std::string listText(std::span<const float> values) {
+    std::string text;
+    for (const float value : values) text += (text.empty() ? "" : ",") + shortest(value);
+    return text;
 }
 
 std::vector<float> parseNumbers(std::string_view text, std::size_t least, std::size_t most) {

@@ -4,6 +4,7 @@
 #include "tessera/options.h"
 
 #include <cstddef>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -17,8 +18,10 @@ struct Size {
 
 constexpr int kLargestSide = 65536;  // pixels, as RenderOptions allows
 
-// "1280x720": two whole numbers from 1 to kLargestSide and nothing else.
-[[nodiscard]] Size parseSize(std::string_view text);
+constexpr int kSmallestBucketSide = 8;
+
+// "1280x720": two whole numbers from `least` to kLargestSide and nothing else.
+[[nodiscard]] Size parseSize(std::string_view text, int least = 1);
 
 // A finite number and nothing else: "-1.5", "1e3".
 [[nodiscard]] float parseNumber(std::string_view text);
@@ -29,10 +32,13 @@ constexpr int kLargestSide = 65536;  // pixels, as RenderOptions allows
 // A whole number from `least` to `most` and nothing else: "40000".
 [[nodiscard]] long long parseWhole(std::string_view text, long long least, long long most);
 
+// "1,0.5,-2": what parseNumbers() reads.
+[[nodiscard]] std::string listText(std::span<const float> values);
+
 // `least` to `most` numbers with commas between: "1,0.5,-2".
 [[nodiscard]] std::vector<float> parseNumbers(std::string_view text, std::size_t least, std::size_t most);
 
-// "cpu", "breadth" or "bounded".
+// "cpu", "breadth", "bounded" or "local".
 [[nodiscard]] SplitMethod parseMethod(std::string_view text);
 
 // "watertight" or "classical".

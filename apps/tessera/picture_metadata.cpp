@@ -2,6 +2,7 @@
 #include "picture_metadata.h"
 
 #include "console.h"
+#include "parse_values.h"
 
 #include <cmath>
 #include <map>
@@ -45,10 +46,6 @@ std::string aovText(Aov aovs) {
     return text;
 }
 
-std::string listText(const std::array<float, 4>& values) {
-    return shortest(values[0]) + "," + shortest(values[1]) + "," + shortest(values[2]) + "," + shortest(values[3]);
-}
-
 }  // namespace
 
 // The mode, and the options that it looks at.
@@ -57,6 +54,7 @@ std::map<std::string, std::string> modeOptions(const RenderOptions& options) {
     if (options.mode == DiceMode::watertight) {
         list["shading-rate"] = shortest(options.shadingRate);
         list["grid-size"] = std::to_string(options.gridSize);
+        list["occlusion"] = options.occlusion ? "true" : "false";
         if (options.dicingCamera) list["dicing-camera"] = options.dicingCamera->name;
     } else {
         list["split-bound"] = shortest(options.splitBound);
@@ -82,7 +80,9 @@ ImageMetadata pictureMetadata(const std::string& commandLine, const Camera& came
         {"background", listText(options.background)},
         {"aov", aovText(options.aovs)},
         {"method", std::string(name(options.method))},
+        {"memory", std::to_string(options.memoryBytes >> 20)},
         {"batch", std::to_string(options.batch)},
+        {"bucket", std::to_string(options.bucketWidth) + "x" + std::to_string(options.bucketHeight)},
         {"cull-backfaces", options.cullBackfaces ? "true" : "false"},
         {"headlight", options.headlight ? "true" : "false"},
         {"emulate-atomics", options.emulateAtomics ? "true" : "false"},

@@ -15,6 +15,8 @@ public:
     ProgressLine(const ProgressLine&) = delete;
     ProgressLine& operator=(const ProgressLine&) = delete;
 
+    // Whether update() may show anything.
+    [[nodiscard]] bool enabled() const { return enabled_; }
     // `frame` from 0; `stage` and `fraction` as tessera::Progress tells them.
     void update(int frame, std::string_view stage, double fraction);
     void clear();

@@ -56,7 +56,9 @@ Rendering renderFrames(Renderer& renderer, const Camera& camera, const RenderArg
     Rendering rendering;
     std::vector<Statistics> statistics;
     for (int i = 0; i < arguments.frames; ++i) {
-        const auto progress = [&](std::string_view stage, double fraction) { line.update(i, stage, fraction); };
+        // Without a line to show, the renderer need not look at its counts in between.
+        Progress progress;
+        if (line.enabled()) progress = [&](std::string_view stage, double fraction) { line.update(i, stage, fraction); };
         rendering.frame = renderer.render(camera, options, progress);
         rendering.frameMs.push_back(rendering.frame.statistics.frameMs);
         statistics.push_back(std::move(rendering.frame.statistics));

@@ -6,33 +6,21 @@
 #include "console.h"
 #include "mode_options.h"
 #include "parse_values.h"
+#include "plan_options.h"
 #include "tessera/error.h"
 
 #include <algorithm>
 #include <filesystem>
-#include <limits>
 #include <vector>
 
 namespace tessera::program {
 
 namespace {
 
-template <std::size_t Count>
-std::string listText(const std::array<float, Count>& values) {
-    std::string text;
-    for (const float value : values) text += (text.empty() ? "" : ",") + shortest(value);
-    return text;
-}
-
 void readBackground(const std::string& text, std::array<float, 4>& background) {
     const std::vector<float> numbers = parseNumbers(text, 3, 4);
     background[3] = 1.0F;
     std::copy(numbers.begin(), numbers.end(), background.begin());
-}
-
-void readCrop(const std::string& text, std::array<float, 4>& crop) {
-    const std::vector<float> numbers = parseNumbers(text, 4, 4);
-    std::copy(numbers.begin(), numbers.end(), crop.begin());
 }
 
 Transform readLookAt(const std::string& text) {
@@ -48,33 +36,16 @@ float readFov(const std::string& text) {
 
 void addPictureOptions(CLI::App& app, RenderArguments& arguments) {
     RenderOptions& options = arguments.options;
-    const auto readSize = [&options](const std::string& text) {
-        const Size size = parseSize(text);
-        options.width = size.width;
-        options.height = size.height;
-    };
     app.add_option("-o,--output", arguments.output,
                    "File of the picture; its ending says the format: .exr (half float,\nlinear, all outputs), .png .tif .jpg (8-bit sRGB)")
         ->type_name("OUT")
         ->required();
-    addParsed(app, "--size", readSize, "Width and height of the full picture in pixels, each 1 to 65536")
-        ->type_name("WxH")
-        ->default_str(std::to_string(options.width) + "x" + std::to_string(options.height));
-    addParsed(
-        app, "--crop", [&options](const std::string& text) { readCrop(text, options.crop); },
-        "Render this window alone: fractions of the picture, 0 to 1, y down")
-        ->type_name("X0,X1,Y0,Y1")
-        ->default_str(listText(options.crop));
-    addWhole(app, "--pixel-samples", options.pixelSamples, {1, 16}, "N x N stratified samples a pixel, 1 to 16")->type_name("N");
+    addSizeOptions(app, options);
     addParsed(
         app, "--background", [&options](const std::string& text) { readBackground(text, options.background); },
         "Linear colour and alpha where nothing is seen; alpha is 1 when left out")
         ->type_name("R,G,B[,A]")
         ->default_str(listText(options.background));
-    addParsed(
-        app, "--aov", [&options](const std::string& text) { options.aovs = parseAovs(text); },
-        "More outputs for .exr, with commas between:\n" + aovNames())
-        ->type_name("LIST");
     groupRest(app, "Picture");
 }
 
@@ -97,24 +68,15 @@ void addCameraOptions(CLI::App& app, CameraArguments& camera) {
 
 void addSplitOptions(CLI::App& app, RenderArguments& arguments) {
     RenderOptions& options = arguments.options;
-    addModeOptions(app, arguments);
-    addParsed(
-        app, "--method", [&options](const std::string& text) { options.method = parseMethod(text); },
-        "How ranges are split: cpu (on the host, the reference), breadth (all at\nonce), bounded (memory fixed beforehand)")
-        ->type_name("NAME")
-        ->default_str(std::string(name(options.method)));
-    addWhole(app, "--batch", options.batch, {1, 1 << 20}, "Ranges bounded at a time, 1 to 1048576: less takes less device memory")
-        ->type_name("P");
+    addModeOptions(app, arguments, ModeOptions::all);
+    addMemoryOptions(app, options);
     app.add_flag("--cull-backfaces", options.cullBackfaces, "Drop micropolygons that face away (normal: du x dv)");
     app.add_flag("--headlight", options.headlight, "Light from the camera instead of the scene's lights");
-    groupRest(app, "Splitting and dicing");
+    groupRest(app, "Splitting and memory");
 }
 
 void addDeviceOptions(CLI::App& app, RenderArguments& arguments) {
-    addWhole(app, "--device", arguments.settings.device, {0, std::numeric_limits<int>::max()},
-             "Number of the device in 'tessera devices'; without it the first GPU, else\nthe first usable device")
-        ->type_name("I")
-        ->default_str("");
+    addDeviceOption(app, arguments.settings.device);
     addWhole(app, "--threads", arguments.options.threads, {0, 1024}, "Host threads of --method cpu, 1 to 1024; 0 is one a core")
         ->type_name("N");
     app.add_flag("--emulate-atomics", arguments.options.emulateAtomics,
@@ -165,6 +127,15 @@ void addRenderOptions(CLI::App& app, RenderArguments& arguments) {
     app.set_help_flag("-h,--help", "Print this help and exit")->group("Reports");
 }
 
+void checkFrameOptions(const RenderArguments& arguments) {
+    checkModeOptions(arguments);
+    try {
+        arguments.options.validate();
+    } catch (const Error& error) {
+        throw UsageError(error.what());
+    }
+}
+
 void checkRenderArguments(const RenderArguments& arguments) {
     if (arguments.output == "-") throw UsageError("--output -: a picture cannot go to standard output, name a file");
     if (arguments.trace == "-") throw UsageError("--trace -: a trace cannot go to standard output, name a file");
@@ -172,12 +143,7 @@ void checkRenderArguments(const RenderArguments& arguments) {
         sameFile(arguments.stats, arguments.trace)) {
         throw UsageError("--output, --stats and --trace name the same file: give each its own");
     }
-    checkModeOptions(arguments);
-    try {
-        arguments.options.validate();
-    } catch (const Error& error) {
-        throw UsageError(error.what());
-    }
+    checkFrameOptions(arguments);
 }
 
 }  // namespace tessera::program

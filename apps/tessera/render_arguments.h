@@ -31,6 +31,9 @@ struct RenderArguments {
 // Adds all options to `app`; parsing fills `arguments`, which has to outlive it.
 void addRenderOptions(CLI::App& app, RenderArguments& arguments);
 
+// Options of the frame that are each right, but not together. Throws UsageError.
+void checkFrameOptions(const RenderArguments& arguments);
+
 // What can be told wrong without opening any file but is no matter of a single option. Throws UsageError.
 void checkRenderArguments(const RenderArguments& arguments);
 

@@ -28,18 +28,32 @@ std::string statsJson(const Statistics& statistics, const std::string& scene, co
     json["ranges_processed"] = statistics.rangesProcessed;
     json["ranges_diced"] = statistics.rangesDiced;
     json["ranges_culled"] = statistics.rangesCulled;
+    json["ranges_occluded"] = statistics.rangesOccluded;
+    json["patches_skipped"] = statistics.patchesSkipped;
     json["stack_peak"] = statistics.stackPeak;
     json["iterations"] = statistics.iterations;
     json["batches"] = statistics.batches;
     json["micropolygons"] = statistics.micropolygons;
     json["pixels_covered"] = statistics.pixelsCovered;
+    json["buckets"] = statistics.buckets;
+    json["bucket_width"] = statistics.bucketWidth;
+    json["bucket_height"] = statistics.bucketHeight;
+    json["chunks"] = statistics.chunks;
+    json["streamed_bytes"] = statistics.streamedBytes;
+    json["stack_growths"] = statistics.stackGrowths;
+    json["launches"] = statistics.launches;
+    json["group_ranges"] = statistics.groupRanges;
+    json["host_waits"] = statistics.hostWaits;
     json["split_ms"] = statistics.splitMs;
     json["frame_ms"] = statistics.frameMs;
     json["frame_ms_all"] = std::vector<double>(frameMs.begin(), frameMs.end());
     json["kernel_ms"] = nlohmann::ordered_json::object();
     for (const auto& [kernel, milliseconds] : statistics.kernelMs) json["kernel_ms"][kernel] = milliseconds;
     json["build_ms"] = statistics.buildMs;
+    json["device_bytes_budget"] = statistics.deviceBytesBudget;
     json["device_bytes_peak"] = statistics.deviceBytesPeak;
+    json["device_bytes"] = nlohmann::ordered_json::object();
+    for (const auto& [purpose, bytes] : statistics.deviceBytes) json["device_bytes"][purpose] = bytes;
     // Names come from files, whose bytes need not be UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

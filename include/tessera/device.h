@@ -29,4 +29,7 @@ struct DeviceInfo {
 // All devices of all platforms; empty when there is no OpenCL platform. Never throws for want of devices.
 [[nodiscard]] std::vector<DeviceInfo> listDevices();
 
+// The device of that index, or the default for -1. Throws Error: no device, unknown index, unusable device.
+[[nodiscard]] DeviceInfo findDevice(int index);
+
 }  // namespace tessera

@@ -14,6 +14,7 @@ enum class SplitMethod {
     cpu,      // on the host, several threads; the reference
     breadth,  // all ranges at once, memory grows with them (Patney & Owens 2008)
     bounded,  // at most `batch` ranges at a time, memory fixed beforehand (Weber & Owens 2014)
+    local,    // a stack a work-group in local memory, work shared from launch to launch (Weber 2015, Tzeng et al. 2010)
 };
 
 [[nodiscard]] std::string_view name(SplitMethod method);
@@ -50,7 +51,12 @@ struct RenderOptions {
     std::array<float, 4> crop{0.0F, 1.0F, 0.0F, 1.0F};  // CropWindow: x0, x1, y0, y1 as fractions of the picture, y down
     SplitMethod method = SplitMethod::bounded;
     DiceMode mode = DiceMode::watertight;
-    std::uint32_t batch = 40000;  // p: ranges bounded at a time, 1 to 1 << 20
+    // What the frame's buffers take at most, in bytes; 0: 512 MiB or a quarter of the device's memory, whichever is less.
+    std::uint64_t memoryBytes = 0;
+    std::uint32_t batch = 0;  // p: ranges bounded at a time, 1 to 1 << 20, or 0: what the memory plan finds best
+    int bucketWidth = 0;      // pixels that are rendered at a time, 8 to 65536 each way, or 0 and 0: what the memory plan finds best
+    int bucketHeight = 0;
+    bool occlusion = true;  // watertight mode: drop ranges that lie behind what is drawn already; the picture is the same
     // Watertight mode. Edges get 2^k micropolygons, none longer than sqrt(shadingRate) pixels, and no more than it takes for that and for
     // what a bend asks for.
     float shadingRate = 1.0F;            // greatest area of a micropolygon in pixels, 0.0625 to 65536

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "tessera/device.h"
+#include "tessera/memory_plan.h"
 #include "tessera/options.h"
 #include "tessera/progress.h"
 #include "tessera/scene.h"
@@ -62,6 +63,10 @@ public:
 
     // Validates the scene and makes its control points resident. Throws Error; then no scene is set.
     void setScene(const Scene& scene);
+
+    // How a frame of these options would use the device's memory. Throws Error where the budget is too small, with the least that
+    // would do, or on bad options.
+    [[nodiscard]] MemoryPlan plan(const RenderOptions& options) const;
 
     // Renders one frame of the scene that was set. Throws Error on bad options, or when the frame's
     // buffers pass what the device holds, with the bytes they would need.

@@ -39,23 +39,33 @@ typedef struct {
     uint gregory_end;
     uint rational_end;
     uint patches;
-    // Film, in cells: a cell holds one sample, pixel_samples x pixel_samples cells make a pixel.
+    uint first_patch;  // of these, in the scene: what references count from
+    uint streamed;     // 0 or 1: whether other patches come after these on the device, so that every batch is resolved
+    // What is fed, and what is culled behind what is drawn.
+    uint feed_boxes;  // 0 or 1: whether patches whose boxes miss the film's tiles of 8 x 8 pixels are left out, these included:
+    int box_x0;
+    int box_x1;
+    int box_y0;
+    int box_y1;
+    uint occlusion;  // 0 or 1: patches are fed from front to back, and ranges behind what is drawn are culled
+    // Film, which holds a bucket of the crop window, or all of it. In cells: a cell holds one sample, pixel_samples x pixel_samples cells
+    // make a pixel.
     int pixel_samples;
-    int cells_x;  // of the crop window
+    int cells_x;  // of the bucket
     int cells_y;
-    int cell_x0;  // the crop window's corner in the full picture
+    int cell_x0;  // the bucket's corner in the full picture
     int cell_y0;
     int tile_cells;      // cells along a side of a tile; a multiple of pixel_samples
     float tile_inverse;  // 1 / tile_cells
     int tiles_x;
     int tiles;
-    int width;  // of the crop window, pixels
+    int width;  // of the bucket, pixels
     int height;
-    // Raster coordinates: 24.8 fixed point in cells, from the crop window's top left, y down.
+    // Raster coordinates: 24.8 fixed point in cells, from the bucket's top left, y down.
     float raster_scale;  // focal * pixel_samples * 256
     float raster_x;      // centre of the full picture in 1/256 cells
     float raster_y;
-    int raster_x0;  // the crop window's corner in 1/256 cells
+    int raster_x0;  // the bucket's corner in 1/256 cells
     int raster_y0;
     uint cull_backfaces;  // 0 or 1
     // Shading.

@@ -32,6 +32,8 @@ std::string_view name(SplitMethod method) {
             return "breadth";
         case SplitMethod::bounded:
             return "bounded";
+        case SplitMethod::local:
+            return "local";
     }
     return "?";
 }
@@ -44,7 +46,11 @@ void RenderOptions::validate() const {
     requireRange("pixel samples", pixelSamples, 1, 16);
     for (const float edge : crop) requireRange("crop window", edge, 0.0F, 1.0F);
     if (crop[0] >= crop[1] || crop[2] >= crop[3]) throw Error("crop window is empty: X0 must be below X1, and Y0 below Y1");
-    requireRange("batch", batch, 1U, 1U << 20);
+    requireRange("batch", batch, 0U, 1U << 20);
+    if (bucketWidth != 0 || bucketHeight != 0) {
+        requireRange("bucket width", bucketWidth, 8, 65536);
+        requireRange("bucket height", bucketHeight, 8, 65536);
+    }
     requireRange("shading rate", shadingRate, 0.0625F, 65536.0F);
     requireRange("grid size", gridSize, 1, 32);
     if (!std::has_single_bit(static_cast<unsigned>(gridSize))) {

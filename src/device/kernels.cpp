@@ -8,8 +8,10 @@ namespace tessera {
 namespace {
 
 const std::vector<std::string>& kernelFiles() {
-    static const std::vector<std::string> files = {"surface/place.cl",  "surface/evaluate.cl", "split/split.cl", "split/quad_split.cl",
-                                                   "dice/dice_hide.cl", "film/resolve.cl",     "shade/shade.cl"};
+    static const std::vector<std::string> files = {
+        "surface/place.cl",     "surface/evaluate.cl",  "split/split.cl",      "split/quad_split.cl", "split/feed.cl",
+        "split/local_quads.cl", "split/local_boxes.cl", "split/local_book.cl", "dice/dice_hide.cl",   "film/resolve.cl",
+        "film/coarse.cl",       "shade/shade.cl",       "shade/shade_chunk.cl"};
     return files;
 }
 

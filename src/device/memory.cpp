@@ -1,6 +1,5 @@
 #include "device/memory.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -8,47 +7,87 @@
 
 namespace tessera {
 
-DeviceBuffer::DeviceBuffer(DeviceBuffer&& other) noexcept
-    : buffer_(std::move(other.buffer_)), bytes_(std::exchange(other.bytes_, 0)), count_(std::move(other.count_)) {}
+struct DeviceMemory::Count {
+    MemoryUse now;
+    MemoryUse peak;
 
-DeviceBuffer& DeviceBuffer::operator=(DeviceBuffer&& other) noexcept {
-    DeviceBuffer taken(std::move(other));
-    // The handles themselves: the bindings' own assignment may throw.
-    std::swap(buffer_(), taken.buffer_());
-    std::swap(bytes_, taken.bytes_);
-    std::swap(count_, taken.count_);
-    return *this;
+    [[nodiscard]] static std::uint64_t& of(MemoryUse& use, Purpose purpose) {
+        switch (purpose) {
+            case Purpose::scene:
+                return use.scene;
+            case Purpose::queues:
+                return use.queues;
+            case Purpose::film:
+                return use.film;
+            case Purpose::picture:
+                break;
+        }
+        return use.picture;
+    }
+    void add(Purpose purpose, std::uint64_t bytes) {
+        of(now, purpose) += bytes;
+        if (now.total() > peak.total()) peak = now;
+    }
+};
+
+struct DeviceBuffer::Held {
+    Held(std::shared_ptr<DeviceMemory::Count> count, Purpose purpose, std::uint64_t bytes, cl::Buffer buffer)
+        : count_(std::move(count)), purpose_(purpose), bytes_(bytes), buffer_(std::move(buffer)) {
+        count_->add(purpose_, bytes_);
+    }
+    ~Held() { DeviceMemory::Count::of(count_->now, purpose_) -= bytes_; }
+    Held(const Held&) = delete;
+    Held& operator=(const Held&) = delete;
+
+    std::shared_ptr<DeviceMemory::Count> count_;
+    Purpose purpose_;
+    std::uint64_t bytes_;
+    cl::Buffer buffer_;
+};
+
+const cl::Buffer& DeviceBuffer::cl() const {
+    static const cl::Buffer none;
+    return held_ ? held_->buffer_ : none;
 }
 
-DeviceBuffer::~DeviceBuffer() {
-    if (count_) count_->now -= bytes_;
-}
+std::uint64_t DeviceBuffer::bytes() const { return held_ ? held_->bytes_ : 0; }
 
-DeviceBuffer DeviceMemory::allocate(const std::string& purpose, std::uint64_t bytes, cl_mem_flags flags) {
+DeviceMemory::DeviceMemory(const OpenDevice& device)
+    : device_(device), count_(std::make_shared<Count>()), budget_(device.info.globalBytes) {}
+
+std::uint64_t DeviceMemory::bytes() const { return count_->now.total(); }
+
+std::uint64_t DeviceMemory::peakBytes() const { return count_->peak.total(); }
+
+MemoryUse DeviceMemory::peakUse() const { return count_->peak; }
+
+void DeviceMemory::restartPeak() { count_->peak = count_->now; }
+
+DeviceBuffer DeviceMemory::allocate(Purpose purpose, const std::string& name, std::uint64_t bytes, cl_mem_flags flags) {
     const std::uint64_t size = bytesFor(bytes);
     const DeviceInfo& info = device_.info;
-    if (size > info.maxAllocationBytes || count_->now + size > info.globalBytes) {
-        throw Error(purpose + " would need " + bytesText(size) + " of device memory beside " + bytesText(count_->now) + " in use, but " +
-                    info.name + " holds " + bytesText(info.globalBytes) + ", at most " + bytesText(info.maxAllocationBytes) +
-                    " in one buffer");
+    const std::uint64_t used = count_->now.total();
+    if (size > info.maxAllocationBytes || used + size > info.globalBytes) {
+        throw Error(name + " would need " + bytesText(size) + " of device memory beside " + bytesText(used) + " in use, but " + info.name +
+                    " holds " + bytesText(info.globalBytes) + ", at most " + bytesText(info.maxAllocationBytes) + " in one buffer");
+    }
+    if (used + size > budget_) {
+        throw Error(name + " would need " + bytesText(size) + " of device memory beside " + bytesText(used) +
+                    " in use, more than the budget of " + bytesText(budget_) + "; use a larger --memory");
     }
     try {
         DeviceBuffer buffer;
-        buffer.buffer_ = cl::Buffer(device_.context, flags, size);
-        buffer.bytes_ = size;
-        buffer.count_ = count_;
-        count_->now += size;
-        count_->peak = std::max(count_->peak, count_->now);
+        buffer.held_ = std::make_shared<const DeviceBuffer::Held>(count_, purpose, size, cl::Buffer(device_.context, flags, size));
         return buffer;
     } catch (const cl::Error& error) {
-        throw Error(purpose + ": " + info.name + " can't give " + bytesText(size) + " of memory: " + clErrorName(error.err()));
+        throw Error(name + ": " + info.name + " can't give " + bytesText(size) + " of memory: " + clErrorName(error.err()));
     }
 }
 
-bool DeviceMemory::ensure(DeviceBuffer& buffer, const std::string& purpose, std::uint64_t bytes, cl_mem_flags flags) {
+bool DeviceMemory::ensure(DeviceBuffer& buffer, Purpose purpose, const std::string& name, std::uint64_t bytes, cl_mem_flags flags) {
     if (buffer.bytes() >= bytesFor(bytes)) return false;
     buffer = DeviceBuffer();
-    buffer = allocate(purpose, bytes, flags);
+    buffer = allocate(purpose, name, bytes, flags);
     return true;
 }
 

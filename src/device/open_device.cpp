@@ -125,6 +125,8 @@ std::vector<DeviceInfo> listDevices() {
     return infos;
 }
 
+DeviceInfo findDevice(int index) { return chooseDevice(index).second; }
+
 OpenDevice openDevice(int index, int lanes) {
     const auto [device, info] = chooseDevice(index);
     try {
@@ -133,6 +135,7 @@ OpenDevice openDevice(int index, int lanes) {
         open.device = device;
         open.context = cl::Context(device);
         open.queue = cl::CommandQueue(open.context, device, CL_QUEUE_PROFILING_ENABLE);
+        open.transfers = cl::CommandQueue(open.context, device, CL_QUEUE_PROFILING_ENABLE);
         open.shape = shapeOf(info, lanes);
         return open;
     } catch (const cl::Error& error) {

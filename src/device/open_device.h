@@ -17,7 +17,8 @@ struct OpenDevice {
     DeviceInfo info;
     cl::Device device;
     cl::Context context;
-    cl::CommandQueue queue;  // in order, with profiling
+    cl::CommandQueue queue;      // in order, with profiling
+    cl::CommandQueue transfers;  // the same, for uploads beside what `queue` does
     DeviceShape shape;
 };
 

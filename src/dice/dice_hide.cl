@@ -1,8 +1,10 @@
 // dice_hide: a work-group takes a range at a time, evaluates its grid into local memory and hides its micropolygons.
-// In:     ready (state->ready_count ranges: range_t in classical mode, quad_range in watertight mode), eye_points, patches, records.
-// Out:    samples, touched (film/film.clh), with ids of micropolygons as film/batch.clh packs them.
-// Runs:   when `ready` has too little room for another iteration, or nothing is left to split; else it returns at once.
-// Bound:  no global memory beyond the film; a grid of at most 33 x 33 vertices of 12 bytes in local memory.
+// In:    ready (the ranges [hidden, ready_count) of it: range_t in classical mode, quad_range in watertight mode), eye_points, patches,
+//        records.
+// Out:   samples, touched (film/film.clh), with ids of micropolygons as film/batch.clh packs them.
+// Runs:  when enough ranges are collected, `ready` has too little room for another iteration, or nothing is left to split; else it
+//        returns at once (film/batch.clh).
+// Bound: no global memory beyond the film; a grid of at most 33 x 33 vertices of 12 bytes in local memory.
 // The grid holds 24.8 fixed-point screen positions (as bits in floats) and 1/z; where a vertex is nearer than the near plane or
 // outside the guard band the whole range's grid holds eye-space positions instead and takes the careful path (raster_wide.clh).
 #include "device/lanes.clh"
@@ -256,7 +258,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void dice_hide(frame_p
     target.pass = pass;
     target.per_tile = tile_reciprocal(&frame);
     target.hits = 0;
-    uint ranges = batch_to_hide(&frame, state, limits);
+    uint hidden = state->hidden;
+    uint ranges = hide_is_due(state, limits) ? state->ready_count - hidden : 0u;
     // Neighbours in `ready` are mostly neighbours on the screen: a group takes a run of them, so that their samples stay in its cache,
     // but short enough that each group has several runs.
     uint groups = (uint)get_num_groups(0);
@@ -265,8 +268,8 @@ kernel __attribute__((reqd_work_group_size(GROUP, 1, 1))) void dice_hide(frame_p
         uint r = ((step / run) * groups + (uint)get_group_id(0)) * run + step % run;
         if (r - step % run >= ranges) break;
         if (r >= ranges) continue;
-        grid_range range = range_to_dice(&frame, ready, r, eye_points, patches, records);
-        uint first_id = first_id_of(r, frame.rate_bits);
+        grid_range range = range_to_dice(&frame, ready, hidden + r, eye_points, patches, records);
+        uint first_id = first_id_of(hidden + r, frame.rate_bits);
         if (get_local_id(0) == 0) careful = 0;
         barrier(CLK_LOCAL_MEM_FENCE);
         // Barriers stand at the kernel's own level: within branches that hold more, PoCL's groups of many work-items crashed.

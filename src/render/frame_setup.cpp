@@ -14,7 +14,7 @@ namespace {
 constexpr float farCull = 1000.0F;
 constexpr float ribbonPixels = 32.0F;
 
-// Of the full picture, whatever the crop window: nine points do not bound a range, so against a smaller window other ranges would be
+// Of the full picture, whatever the bucket: nine points do not bound a range, so against a smaller window other ranges would be
 // culled, and its pixels would not be the full picture's.
 void setBounds(frame_params& frame, const RenderOptions& options) {
     frame.cull_left = -ribbonPixels;
@@ -23,7 +23,7 @@ void setBounds(frame_params& frame, const RenderOptions& options) {
     frame.cull_top = static_cast<float>(options.height - 1) + ribbonPixels;
 }
 
-// The crop window itself, for hulls cull nothing that could be seen; a pixel more for what rounding may have moved.
+// The bucket itself, for hulls cull nothing that could be seen; a pixel more for what rounding may have moved.
 constexpr int hullMargin = 1;
 
 void setHullBounds(frame_params& frame, const RenderOptions& options, const FilmLayout& film) {
@@ -50,6 +50,9 @@ void setWatertight(frame_params& frame, const Camera& camera, const RenderOption
     frame.level_most = QUAD_LEVEL_MOST;
     frame.dicing_apart = options.dicingCamera ? 1 : 0;
     frame.rate_bits = frame.grid_bits;
+    // breadth and cpu draw in the order in which they split, so that nothing is known when most is bounded.
+    const bool ahead = options.method == SplitMethod::bounded || options.method == SplitMethod::local;
+    frame.occlusion = options.occlusion && ahead ? 1 : 0;
     setHullBounds(frame, options, film);
 }
 
@@ -71,6 +74,11 @@ void setFilm(frame_params& frame, const FilmLayout& film) {
     frame.raster_y = frame.centre_y * static_cast<float>(unit);
     frame.raster_x0 = film.x0 * unit;
     frame.raster_y0 = film.y0 * unit;
+    constexpr int boxTile = 8;  // pixels along a side of patch_box's tiles
+    frame.box_x0 = film.x0 / boxTile;
+    frame.box_x1 = (film.x0 + film.width - 1) / boxTile;
+    frame.box_y0 = film.y0 / boxTile;
+    frame.box_y1 = (film.y0 + film.height - 1) / boxTile;
 }
 
 float shininess(const Material& material) {
@@ -93,7 +101,7 @@ glm::dmat4 eyeFromWorld(const Camera& camera) {
     return view;
 }
 
-frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, const PatchSet& patches) {
+frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, bool bucketed) {
     frame_params frame{};
     frame.focal = static_cast<float>(focalLength(camera, options));
     frame.centre_x = static_cast<float>(options.width) * 0.5F;
@@ -106,11 +114,10 @@ frame_params setUpFrame(const Camera& camera, const RenderOptions& options, cons
     frame.dice_rate = static_cast<std::uint32_t>(options.diceRate);
     frame.rate_bits = rateBits(options.diceRate);
     if (options.mode == DiceMode::watertight) setWatertight(frame, camera, options, film);
-    frame.bezier_patches = patches.bezierPatches;
-    frame.gregory_end = patches.gregoryEnd;
-    frame.rational_end = patches.rationalEnd;
-    frame.patches = patches.patches;
     setFilm(frame, film);
+    // Classical mode counts every patch as bounded, as the original did; but a bucket leaves out what can't reach it. The cpu method, the
+    // reference, looks at all.
+    frame.feed_boxes = options.method != SplitMethod::cpu && (frame.watertight != 0 || bucketed) ? 1 : 0;
     frame.cull_backfaces = options.cullBackfaces ? 1 : 0;
     const std::array<float, 4>& background = options.background;
     frame.background_r = background[0] * background[3];
@@ -137,6 +144,7 @@ std::vector<placed_object> placeObjects(const Scene& scene, const glm::dmat4& ey
         setVector(out.color, object.color);
         out.specular = object.material.kind == MaterialKind::plastic ? object.material.specular : 0.0F;
         out.shininess = shininess(object.material);
+        out.id = static_cast<uint>(placed.size() - 1);
     }
     return placed;
 }

@@ -1,21 +1,25 @@
 // Turns camera, options and scene into what the kernels take.
 #pragma once
 
+#include <cstdint>
 #include <vector>
 
 #include "core/frame_shared.h"
-#include "film/film.h"
+#include "film/film_layout.h"
 #include "shade/light_shared.h"
-#include "surface/patch_set.h"
+#include "surface/patch_shared.h"
 #include "tessera/options.h"
 #include "tessera/scene.h"
 
 namespace tessera {
 
-[[nodiscard]] frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, const PatchSet& patches);
+// All but the patches (PatchStream::use) and the lights' number. `bucketed`: whether the film is a bucket, one of several.
+[[nodiscard]] frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, bool bucketed);
 
 // Bits that number a range's rows or columns of micropolygons: the least b with 2^b >= diceRate.
 [[nodiscard]] std::uint32_t rateBits(int diceRate);
+// Ranges at once whose micropolygons 32 bits can number (film/batch.clh).
+[[nodiscard]] constexpr std::uint64_t mostNumbered(std::uint32_t bits) { return (std::uint64_t{1} << (32 - 2 * bits)) - 2; }
 
 // World to eye space (x right, y up, z the depth); its third row is the camera's -z axis.
 [[nodiscard]] glm::dmat4 eyeFromWorld(const Camera& camera);

@@ -69,6 +69,17 @@ Scene generateScene(std::string_view name, std::optional<std::uint64_t> count, s
     return scene;
 }
 
+void addObject(Scene& scene, const std::string& mesh, std::string name, const glm::dvec3& at, const glm::vec3& color,
+               const Material& material) {
+    Object object;
+    object.name = std::move(name);
+    object.mesh = mesh;
+    object.transform.translation = at;
+    object.color = color;
+    object.material = material;
+    scene.objects.push_back(std::move(object));
+}
+
 void addNamedCamera(Scene& scene, std::string name, const glm::vec3& eye, const glm::vec3& target, float fovyDegrees) {
     addCamera(scene, eye, target, fovyDegrees);
     scene.cameras.back().name = std::move(name);

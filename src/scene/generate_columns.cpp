@@ -16,6 +16,7 @@ constexpr double kSpacing = 3.2;
 constexpr double kTop = 7.4;  // of a column
 
 constexpr std::array<glm::vec3, 3> kStones{{{0.78F, 0.73F, 0.64F}, {0.74F, 0.69F, 0.6F}, {0.8F, 0.76F, 0.69F}}};
+constexpr Material kStone{MaterialKind::plastic, 0.12F, 0.35F};
 
 // A slab with rounded edges, closed all around: half its sides, and its height from 0.
 void appendSlab(std::vector<glm::vec3>& points, double x, double z, double low, double high) {
@@ -89,16 +90,6 @@ Mesh floorMesh(std::size_t across, std::size_t along) {
     return bezierMesh("floor", std::move(points));
 }
 
-void place(Scene& scene, const std::string& mesh, std::string name, const glm::dvec3& at, const glm::vec3& color) {
-    Object object;
-    object.name = std::move(name);
-    object.mesh = mesh;
-    object.transform.translation = at;
-    object.color = color;
-    object.material = {MaterialKind::plastic, 0.12F, 0.35F};
-    scene.objects.push_back(std::move(object));
-}
-
 }  // namespace
 
 Scene generateColumns(const Making& making) {
@@ -108,15 +99,16 @@ Scene generateColumns(const Making& making) {
     const std::size_t along = (making.count + across - 1) / across;
     Scene scene;
     scene.meshes = {columnMesh(), slabMesh("beam", 0.5 * kSpacing - 0.005, 0.45, kTop, kTop + 0.7), floorMesh(across, along)};
-    place(scene, "floor", "floor", glm::dvec3(0.0), {0.5F, 0.44F, 0.38F});
+    addObject(scene, "floor", "floor", glm::dvec3(0.0), {0.5F, 0.44F, 0.38F}, kStone);
     Random random(making.seed);
     for (std::size_t i = 0; i < making.count; ++i) {
         const std::size_t row = i / across;
         const double x = kSpacing * (static_cast<double>(i % across) + 0.5 - 0.5 * static_cast<double>(across));
         const double z = kSpacing * (0.5 * static_cast<double>(along) - 0.5 - static_cast<double>(row));
-        place(scene, "column", "column " + std::to_string(i + 1), {x, 0.0, z}, kStones[random.below(kStones.size())]);
+        addObject(scene, "column", "column " + std::to_string(i + 1), {x, 0.0, z}, kStones[random.below(kStones.size())], kStone);
         if (i % across + 1 < across && i + 1 < making.count) {
-            place(scene, "beam", "beam " + std::to_string(i + 1), {x + 0.5 * kSpacing, 0.0, z}, kStones[random.below(kStones.size())]);
+            addObject(scene, "beam", "beam " + std::to_string(i + 1), {x + 0.5 * kSpacing, 0.0, z}, kStones[random.below(kStones.size())],
+                      kStone);
         }
         making.tell(i, making.count);
     }

@@ -37,6 +37,10 @@ void addNamedCamera(Scene& scene, std::string name, const glm::vec3& eye, const 
 // Sunlight from the left, behind the viewer, and a sky: for scenes under it.
 void addDaylight(Scene& scene);
 
+// Adds an object that stands at `at`, neither turned nor scaled.
+void addObject(Scene& scene, const std::string& mesh, std::string name, const glm::dvec3& at, const glm::vec3& color,
+               const Material& material);
+
 [[nodiscard]] inline Mesh bezierMesh(std::string name, std::vector<glm::vec3> points) {
     Mesh mesh;
     mesh.name = std::move(name);

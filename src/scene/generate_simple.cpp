@@ -39,16 +39,6 @@ void appendRandomPatch(std::vector<glm::vec3>& points, Random& random, double si
     }
 }
 
-void place(Scene& scene, const std::string& mesh, std::string name, const glm::vec3& at, const glm::vec3& color) {
-    Object object;
-    object.name = std::move(name);
-    object.mesh = mesh;
-    object.transform.translation = at;
-    object.color = color;
-    object.material = kGlossy;
-    scene.objects.push_back(std::move(object));
-}
-
 // Cells of a cube of side 2 that holds `count` of them.
 std::uint64_t cellsAlong(std::uint64_t count) {
     std::uint64_t cells = 1;
@@ -72,7 +62,7 @@ Scene generateEyesplit(const Making& /*making*/) {
     }
     Scene scene;
     scene.meshes.push_back(bezierMesh("plane", std::move(points)));
-    place(scene, "plane", "plane", glm::vec3(0.0F), kColors[4]);
+    addObject(scene, "plane", "plane", glm::dvec3(0.0), kColors[4], kGlossy);
     addNamedCamera(scene, "camera", {0.0F, 0.11F, 0.0F}, {0.0F, -0.14F, -1.0F}, 30.0F);
     scene.cameras.back().near = 0.001F;
     addDaylight(scene);
@@ -94,7 +84,7 @@ Scene generateRandomPatches(const Making& making) {
         if (points[i].empty()) continue;
         const std::string name = "patches " + std::to_string(i + 1);
         scene.meshes.push_back(bezierMesh(name, std::move(points[i])));
-        place(scene, name, name, glm::vec3(0.0F), kColors[i]);
+        addObject(scene, name, name, glm::dvec3(0.0), kColors[i], kGlossy);
     }
     addNamedCamera(scene, "camera", {1.6F, 1.9F, 4.6F}, {0.0F, -0.05F, 0.0F}, 29.0F);
     addStudioLights(scene);
@@ -120,8 +110,8 @@ Scene generateSpheres(const Making& making) {
         const std::uint64_t layer = row / cells;
         const glm::dvec3 corner(static_cast<double>(i % cells), static_cast<double>(layer), static_cast<double>(row % cells));
         const glm::dvec3 off = random.within(room);
-        place(scene, scene.meshes[size].name, "sphere " + std::to_string(i + 1), glm::vec3(cell * (corner + 0.5) - 1.0 + off),
-              kColors[random.below(kColors.size())]);
+        addObject(scene, scene.meshes[size].name, "sphere " + std::to_string(i + 1), cell * (corner + 0.5) - 1.0 + off,
+                  kColors[random.below(kColors.size())], kGlossy);
         making.tell(i, making.count);
     }
     addNamedCamera(scene, "camera", {1.9F, 1.7F, 4.4F}, {0.0F, -0.05F, 0.0F}, 29.0F);

@@ -1,6 +1,7 @@
 // The split stage's buffers on the device, and one iteration of bound and split over them (split.cl).
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <vector>
 
@@ -34,13 +35,16 @@ public:
     // Lets go of all buffers.
     void release();
 
-    // Empties the queues for a new frame.
+    // Empties the queues and all counts.
     void restart();
-    // One iteration; a no-op on the device where nothing is left or too little room is in `ready`. `dicingPoints`: the patches in the
-    // dicing camera's space (watertight mode); their eye points where it is the frame's own.
-    void enqueueIteration(const frame_params& frame, const split_limits& limits, const PatchSet& patches, const cl::Buffer& dicingPoints);
+    // Feeds the patches that may be seen, in order (feed.cl). Requires that nothing is left of those fed before,
+    // and that what is diceable of them is resolved or shaded.
+    void enqueueFeed(const frame_params& frame, const PatchSet& patches);
+    // One iteration; a no-op on the device where nothing is left or too little room is in `ready`. `coarse` is read where
+    // frame.occlusion is set (film/coarse.cl).
+    void enqueueIteration(const frame_params& frame, const split_limits& limits, const PatchSet& patches, const cl::Buffer& coarse);
     void enqueueIteration(const frame_params& frame, const split_limits& limits, const PatchSet& patches) {
-        enqueueIteration(frame, limits, patches, patches.eyePoints.cl());
+        enqueueIteration(frame, limits, patches, spare_.cl());
     }
 
     [[nodiscard]] split_state readState();
@@ -59,11 +63,16 @@ public:
     }
 
     [[nodiscard]] const cl::Buffer& ready() const { return ready_.cl(); }
-    [[nodiscard]] const cl::Buffer& state() const { return state_.cl(); }
+    // The counts as the next kernel finds them.
+    [[nodiscard]] const cl::Buffer& state() const { return states_[now_].cl(); }
+    // Where a kernel writes them; afterwards passState() makes them state().
+    [[nodiscard]] const cl::Buffer& stateAfter() const { return states_[1 - now_].cl(); }
+    void passState() { now_ = 1 - now_; }
 
 private:
     void enqueueClassical(const frame_params& frame, const split_limits& limits, const PatchSet& patches);
-    void enqueueWatertight(const frame_params& frame, const split_limits& limits, const PatchSet& patches, const cl::Buffer& dicingPoints);
+    void enqueueWatertight(const frame_params& frame, const split_limits& limits, const PatchSet& patches, const cl::Buffer& coarse);
+    void scanChunks(const split_limits& limits);
     [[nodiscard]] std::size_t groupsFor(const split_limits& limits) const;
 
     DeviceSession& session_;
@@ -74,15 +83,15 @@ private:
     DeviceBuffer cuts_;  // watertight mode
     DeviceBuffer chunkSums_;
     DeviceBuffer ready_;
-    DeviceBuffer state_;
+    std::array<DeviceBuffer, 2> states_;
+    std::size_t now_ = 0;
+    DeviceBuffer spare_;  // stands in for buffers that a launch does not read
 };
 
 // Sums of a frame's counts.
 [[nodiscard]] constexpr std::uint64_t wide(std::uint32_t low, std::uint32_t high) { return (std::uint64_t{high} << 32) | low; }
 
 // Whether nothing is left to split.
-[[nodiscard]] inline bool splitOver(const split_state& state, const PatchSet& patches) {
-    return state.stack_count == 0 && state.next_input >= patches.patches;
-}
+[[nodiscard]] inline bool splitOver(const split_state& state) { return state.stack_count == 0 && state.next_input >= state.feed_count; }
 
 }  // namespace tessera

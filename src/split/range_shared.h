@@ -30,18 +30,22 @@ typedef struct {
     uint splits;
     uint dices;
     uint micropolygons;  // of the diced ones; 0 in classical mode, where all ranges have the same number
+    uint occluded;       // of the culled ones
+    uint looked;         // that were held against what is drawn
     float area;
 } chunk_sum;
 
-// The split stage's counts, which live on the device. `stack` holds ranges sorted by level, `ready` the diceable ones.
+// The split stage's counts, which live on the device. `stack` holds ranges sorted by level, `ready` the diceable ones. A kernel that
+// changes them reads one copy and writes another, so that all of its groups see the same.
 typedef struct {
     uint stack_count;
-    uint next_input;   // patches [next_input, patches) have not been fed yet
-    uint ready_count;  // diceable ranges that wait for dicing
-    // The iteration under way, set by split_scan for split_scatter.
-    uint batch_count;
-    uint stack_base;  // where children go
-    uint ready_base;  // where diceable ranges go
+    uint next_input;   // entries [next_input, feed_count) of `feed` wait
+    uint feed_count;   // patches that may be seen
+    uint ready_count;  // diceable ranges
+    uint hidden;       // the first of them are drawn already
+    // How much looking at what is drawn has brought of late: ranges held against it, and those of them that lay behind it.
+    uint looked;
+    uint found;
     // Statistics of the frame; 64-bit counts as low and high words.
     uint processed_low;
     uint processed_high;
@@ -49,19 +53,25 @@ typedef struct {
     uint diced_high;
     uint culled_low;
     uint culled_high;
+    uint occluded_low;  // of the culled ones
+    uint occluded_high;
     uint micropolygons_low;
     uint micropolygons_high;
     uint stack_peak;
     uint iterations;
+    uint run_iterations;  // since patches were last fed
     uint batches;
+    uint skipped_low;  // patches that were not fed: their boxes lie outside
+    uint skipped_high;
     uint pixels_covered;
-    float area_done;  // of `patches`: how far the frame is
+    float area_done;  // of the patches on the device, since they were fed: how far it is
 } split_state;
 
-// What bounds the split stage: p and the room for diceable ranges (at least p).
+// What bounds the split stage: p, the room for diceable ranges (at least p), and how many of them are collected before they are diced.
 typedef struct {
     uint batch;
     uint ready_capacity;
+    uint collect;
 } split_limits;
 
 TESSERA_SHARED_END

@@ -47,12 +47,21 @@ typedef struct {
     uint cuts;
 } edge_info;
 
+// What a patch may cover: tiles of 8 x 8 pixels of the full picture, the first in the lower 16 bits, the last in the upper ones, none
+// where the first is greater; and its least depth.
+typedef struct {
+    uint columns;
+    uint rows;
+    float nearest;
+} patch_box;
+
 // An object as one frame sees it.
 typedef struct {
     float eye_from_object[12];  // three rows of four; the third gives the depth
     float color[3];
     float specular;   // strength of the highlight; 0 for matte
     float shininess;  // Blinn-Phong exponent
+    uint id;          // index into Scene::objects
 } placed_object;
 
 TESSERA_SHARED_END

@@ -1,12 +1,14 @@
 // place_patches: object-space control points in file order -> eye-space control points, a net a patch (patch_shared.h).
 // place_records: the same for the curves of edge records, behind the patches' nets.
+// place_boxes: what each patch may cover of the picture, from what the other two have placed.
 // In:  points (as uploaded, floats), patches (one placed_patch a patch) or records, objects (this frame's matrices).
 // Out: eye_points: by kind; 192 bytes a Bezier patch or PN triangle, 240 a Gregory, 304 a rational patch, 64 a record.
-// A work-item a patch or record; the NDRange covers all.
+//      boxes: a patch_box a patch.
+// A work-item a patch or record in turn.
 // The same object-space bits give the same eye-space bits, whatever the kind, as far as objects have the same matrix and a weight is 1.
 #include "core/frame_shared.h"
 #include "device/lanes.clh"
-#include "surface/patch_nets.clh"
+#include "surface/patch_box.clh"
 
 constant int gregory_net_source[GREGORY_POINTS] = {0, 4, 9, 1, 8, 12, 13, 5, 7, 15, 14, 10, 3, 11, 6, 2, 16, 17, 18, 19};
 
@@ -70,4 +72,10 @@ kernel void place_records(frame_params frame, uint records, global const float* 
         global const float* m = objects[info[r].object].eye_from_object;
         place_homogeneous(m, points + info[r].first_float, 4, eye_points + record_offset(&frame, r));
     }
+}
+
+kernel void place_boxes(frame_params frame, global const float* eye_points, global const placed_patch* patches,
+                        global const edge_info* records, global patch_box* boxes) {
+    for (uint patch_index = (uint)get_global_id(0); patch_index < frame.patches; patch_index += (uint)get_global_size(0))
+        boxes[patch_index] = patch_box_of(&frame, patch_at(&frame, eye_points, patches, records, patch_index));
 }

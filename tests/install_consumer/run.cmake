@@ -15,7 +15,7 @@ run(${FOLDER}/prefix/bin/tessera devices)
 
 # Public headers and the core alone: nothing of file formats or tests, and no header from the inside.
 file(GLOB_RECURSE headers RELATIVE ${FOLDER}/prefix ${FOLDER}/prefix/*.h ${FOLDER}/prefix/*.clh)
-list(FILTER headers EXCLUDE REGEX "^include/tessera/[a-z]+\\.h$")
+list(FILTER headers EXCLUDE REGEX "^include/tessera/[a-z_]+\\.h$")
 file(GLOB libraries RELATIVE ${FOLDER}/prefix ${FOLDER}/prefix/lib/*.* ${FOLDER}/prefix/lib/*/*.a)
 list(FILTER libraries EXCLUDE REGEX "libtessera\\.(a|so)")
 if(headers OR libraries)
