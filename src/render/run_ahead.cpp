@@ -11,7 +11,7 @@ namespace tessera {
 namespace {
 
 // How iterations are enqueued: so many between two tries to hide, and so many such rounds at first, beside those that it takes to feed all
-// patches: as many as a scene of small patches needs. Those behind the last one find nothing to do, which costs some 10 microseconds each.
+// patches: as many as a scene of small patches needs. Those behind the last one find nothing to do, and cost a launch each.
 struct Pace {
     std::uint32_t iterations;
     std::uint32_t firstRounds;
