@@ -123,7 +123,7 @@ inline RenderOptions smallPicture() {
 }
 
 inline frame_params frameFor(const Camera& camera, const RenderOptions& options, const PatchSet& patches = {}) {
-    frame_params frame = setUpFrame(camera, options, layOutFilm(options), false);
+    frame_params frame = setUpFrame(camera, options, layOutFilm(options), true);
     setPatches(frame, patches);
     return frame;
 }

@@ -70,7 +70,7 @@ std::vector<std::uint32_t> expectedFeed(const frame_params& frame, const std::ve
     std::vector<std::uint32_t> order;
     for (std::uint32_t k = 0; k < boxes.size(); ++k)
         if (frame.feed_boxes == 0 || meets(frame, boxes[k])) order.push_back(k);
-    if (frame.occlusion != 0) {
+    if (frame.occlusion != 0 && frame.feed_boxes != 0) {
         std::stable_sort(order.begin(), order.end(),
                          [&](std::uint32_t a, std::uint32_t b) { return binOf(frame, boxes[a].nearest) < binOf(frame, boxes[b].nearest); });
     }
@@ -205,6 +205,7 @@ TEST_P(Feed, FromFrontToBackInBinsOfDepthEachInTheirOrder) {
                 const std::vector<patch_box> boxes = randomBoxes(200 + count);
                 const Fed fed = feed(rig_, frame, boxes, stateBefore());
                 expectFeed(fed, frame, boxes);
+                if (boxed == 0) continue;  // in the order of the file: there are no boxes
                 // What a bin is for: a patch comes before all that are two quarters of an octave farther.
                 float farthest = 0.0F;
                 for (std::uint32_t k = 0; k < fed.state.feed_count; ++k) {

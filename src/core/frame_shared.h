@@ -47,7 +47,7 @@ typedef struct {
     int box_x1;
     int box_y0;
     int box_y1;
-    uint occlusion;  // 0 or 1: patches are fed from front to back, and ranges behind what is drawn are culled
+    uint occlusion;  // 0 or 1: ranges behind what is drawn are culled; with feed_boxes, patches are fed from front to back
     // Film, which holds a bucket of the crop window, or all of it. In cells: a cell holds one sample, pixel_samples x pixel_samples cells
     // make a pixel.
     int pixel_samples;

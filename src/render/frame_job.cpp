@@ -116,7 +116,7 @@ void FrameJob::beginFrame() {
 
 void FrameJob::drawBucket(int bucket) {
     const FilmLayout layout = bucketLayout(options_, plan_, bucket);
-    frame_params frame = setUpFrame(camera_, options_, layout, plan_.buckets() > 1);
+    frame_params frame = setUpFrame(camera_, options_, layout, feedsByBoxes());
     frame.lights = static_cast<uint>(lights_.size());
     if (frame.occlusion != 0) stations_.film.enqueueForgetDepth(layout);
     if (plan_.streamed()) {
@@ -126,6 +126,13 @@ void FrameJob::drawBucket(int bucket) {
         drawResident(frame, layout);
     }
     stepsDone_ = bucket + 1;
+}
+
+// Boxes are worth their while where a bucket needs few of the patches, or the first batch does not hold all: else bounding tells as much.
+// Classical mode counts every patch as bounded, as the original did, but for those that can't reach a bucket.
+bool FrameJob::feedsByBoxes() const {
+    if (plan_.buckets() > 1) return true;
+    return options_.mode == DiceMode::watertight && (plan_.streamed() || stations_.stream.source().patches() > plan_.batch);
 }
 
 void FrameJob::drawResident(frame_params& frame, const FilmLayout& layout) {

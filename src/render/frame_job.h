@@ -50,6 +50,7 @@ private:
     void reserve();
     void beginFrame();
     void drawBucket(int bucket);
+    [[nodiscard]] bool feedsByBoxes() const;
     void drawResident(frame_params& frame, const FilmLayout& layout);
     void splitChunks(frame_params& frame);
     void shadeChunks(frame_params& frame, const FilmLayout& layout);

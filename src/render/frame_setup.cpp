@@ -101,7 +101,7 @@ glm::dmat4 eyeFromWorld(const Camera& camera) {
     return view;
 }
 
-frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, bool bucketed) {
+frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, bool boxes) {
     frame_params frame{};
     frame.focal = static_cast<float>(focalLength(camera, options));
     frame.centre_x = static_cast<float>(options.width) * 0.5F;
@@ -115,9 +115,8 @@ frame_params setUpFrame(const Camera& camera, const RenderOptions& options, cons
     frame.rate_bits = rateBits(options.diceRate);
     if (options.mode == DiceMode::watertight) setWatertight(frame, camera, options, film);
     setFilm(frame, film);
-    // Classical mode counts every patch as bounded, as the original did; but a bucket leaves out what can't reach it. The cpu method, the
-    // reference, looks at all.
-    frame.feed_boxes = options.method != SplitMethod::cpu && (frame.watertight != 0 || bucketed) ? 1 : 0;
+    // The cpu method, the reference, looks at all.
+    frame.feed_boxes = options.method != SplitMethod::cpu && boxes ? 1 : 0;
     frame.cull_backfaces = options.cullBackfaces ? 1 : 0;
     const std::array<float, 4>& background = options.background;
     frame.background_r = background[0] * background[3];

@@ -13,8 +13,9 @@
 
 namespace tessera {
 
-// All but the patches (PatchStream::use) and the lights' number. `bucketed`: whether the film is a bucket, one of several.
-[[nodiscard]] frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, bool bucketed);
+// All but the patches (PatchStream::use) and the lights' number. `boxes`: whether patches are fed by their boxes
+// (split/feed.cl).
+[[nodiscard]] frame_params setUpFrame(const Camera& camera, const RenderOptions& options, const FilmLayout& film, bool boxes);
 
 // Bits that number a range's rows or columns of micropolygons: the least b with 2^b >= diceRate.
 [[nodiscard]] std::uint32_t rateBits(int diceRate);

@@ -1,7 +1,7 @@
 // feed_patches: which patches are fed, in what order. One work-group.
 // In:   boxes (of the patches on the device), the counts so far.
 // Out:  feed: indices of patches, at most frame.patches; the counts for them: an empty stack, nothing fed yet, nothing ready.
-// Where frame.feed_boxes is set, patches are left out whose boxes miss the film; where frame.occlusion is, the others go from front to
+// Where frame.feed_boxes is set, patches are left out whose boxes miss the film; where frame.occlusion is too, the others go from front to
 // back, by a stable counting sort on four steps an octave of depth, so that what hides comes before what it hides, and neighbours stay
 // neighbours.
 // Each work-item takes a run of patches, counts its bins, and then knows where its patches go: no atomics, the order is always the same.
@@ -16,11 +16,12 @@ static inline int box_side(uint both, int last) { return (int)(last ? both >> 16
 
 // The patch's bin, or -1 where it is not fed.
 static inline int feed_bin(const frame_params* frame, global const patch_box* boxes, uint patch_index) {
+    if (!frame->feed_boxes) return 0;
     patch_box box = boxes[patch_index];
     int x0 = box_side(box.columns, 0), x1 = box_side(box.columns, 1), y0 = box_side(box.rows, 0), y1 = box_side(box.rows, 1);
     bool empty = x0 > x1 || y0 > y1;
     bool outside = x1 < frame->box_x0 || x0 > frame->box_x1 || y1 < frame->box_y0 || y0 > frame->box_y1;
-    if (frame->feed_boxes && (empty || outside)) return -1;
+    if (empty || outside) return -1;
     if (!frame->occlusion) return 0;
     // Positive floats are in the order of their bits.
     int steps =

@@ -192,7 +192,7 @@ void PatchStream::provide(Inputs& inputs, std::uint32_t chunk) {
 void PatchStream::place(const Inputs& inputs, const frame_params& frame, Placing placing) {
     const PatchSet& set = inputs.patches;
     if (!dicing_.empty() && placing == Placing::toSplit) enqueuePlace(session_, frame, set, set.dicingObjects.cl(), set.dicingPoints.cl());
-    enqueuePlace(session_, frame, set, set.objects.cl(), set.eyePoints.cl(), placing == Placing::toSplit);
+    enqueuePlace(session_, frame, set, set.objects.cl(), set.eyePoints.cl(), placing == Placing::toSplit && frame.feed_boxes != 0);
 }
 
 const PatchSet& PatchStream::use(std::uint32_t chunk, frame_params& frame, Placing placing) {
