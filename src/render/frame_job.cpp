@@ -15,6 +15,9 @@ namespace {
 // the tiles that were touched are looked at again.
 constexpr std::uint32_t collectLeast = 1024;
 
+// How far a bucket of a streamed scene counts as done when all is hidden and its chunks come back to be shaded.
+constexpr double splitShare = 0.9;
+
 std::filesystem::path cacheFolderOf(const RendererSettings& settings) {
     if (!settings.cacheKernels) return {};
     return settings.cacheFolder.empty() ? defaultCacheFolder() : std::filesystem::path(settings.cacheFolder);
@@ -107,7 +110,6 @@ void FrameJob::reserve() {
 }
 
 void FrameJob::beginFrame() {
-    stepsInAll_ = plan_.buckets();
     stations_.stream.beginFrame(placed_, dicing_);
     stations_.session.timeline.writeLater(stations_.lights.cl(), lights_.data(), lights_.size() * sizeof(eye_light));
     stations_.queues.restart();
@@ -125,7 +127,7 @@ void FrameJob::drawBucket(int bucket) {
     } else {
         drawResident(frame, layout);
     }
-    stepsDone_ = bucket + 1;
+    bucketsDone_ = bucket + 1;
 }
 
 // Boxes are worth their while where a bucket needs few of the patches, or the first batch does not hold all: else bounding tells as much.
@@ -146,6 +148,10 @@ void FrameJob::drawResident(frame_params& frame, const FilmLayout& layout) {
     });
 }
 
+void FrameJob::tell(std::string_view stage, double fractionOfBucket) const {
+    if (progress_) progress_(stage, (bucketsDone_ + fractionOfBucket) / plan_.buckets());
+}
+
 void FrameJob::takeBucket(const FilmLayout& layout) {
     // There when the picture is, which comes after it.
     static_cast<void>(stations_.queues.readStateLater(counts_));
@@ -158,7 +164,7 @@ void FrameJob::splitChunks(frame_params& frame) {
         if (stations_.stream.mayShow(k, frame)) chunks.push_back(k);
     for (std::size_t k = 0; k < chunks.size(); ++k) {
         const PatchSet& patches = stations_.stream.use(chunks[k], frame);
-        const double share = 1.0 / static_cast<double>(chunks.size());
+        const double share = splitShare / static_cast<double>(chunks.size());
         const auto meanwhile = [&] {
             if (k + 1 < chunks.size()) stations_.stream.prefetch(chunks[k + 1]);
         };
@@ -172,9 +178,7 @@ void FrameJob::split(const frame_params& frame, const PatchSet& patches, double 
     SplitLoop loop{stations_.session, stations_.queues, stations_.film, frame, patches, options_, limits(frame), {}, meanwhile, finish};
     loop.buckets = plan_.buckets();
     if (progress_) {
-        loop.report = [this, before, share](double fraction) {
-            progress_("split and dice", (stepsDone_ + before + share * fraction) / stepsInAll_);
-        };
+        loop.report = [this, before, share](double fraction) { tell("split and dice", before + share * fraction); };
     }
     switch (options_.method) {
         case SplitMethod::cpu:
@@ -211,7 +215,7 @@ void FrameJob::shadeChunks(frame_params& frame, const FilmLayout& layout) {
                           stations_.picture.cl());
         stations_.session.timeline.flush();
         if (k + 1 < seen.size()) stations_.stream.prefetch(seen[k + 1]);
-        if (progress_) progress_("shade", (stepsDone_ + static_cast<double>(k + 1) / static_cast<double>(seen.size())) / stepsInAll_);
+        tell("shade", splitShare + (1.0 - splitShare) * static_cast<double>(k + 1) / static_cast<double>(seen.size()));
     }
     enqueueFilter(stations_.session, frame, planes, stations_.queues, stations_.film, stations_.picture.cl());
     takeBucket(layout);

@@ -58,6 +58,7 @@ private:
     void split(const frame_params& frame, const PatchSet& patches, double before, double share, const std::function<void()>& meanwhile,
                const std::function<void()>& finish);
     void takeBucket(const FilmLayout& layout);
+    void tell(std::string_view stage, double fractionOfBucket) const;
     [[nodiscard]] std::vector<std::uint32_t> chunksSeen(const frame_params& frame);
     [[nodiscard]] split_limits limits(const frame_params& frame) const;
     [[nodiscard]] Statistics statistics(double frameMs);
@@ -75,8 +76,7 @@ private:
     SplitReport report_;
     split_state counts_{};  // of the frame, once a bucket is taken
     bool ended_ = false;    // all that was enqueued is done
-    int stepsDone_ = 0;     // buckets
-    int stepsInAll_ = 1;
+    int bucketsDone_ = 0;
 };
 
 }  // namespace tessera
