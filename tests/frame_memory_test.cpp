@@ -104,6 +104,29 @@ TEST(FrameMemory, ChunksHideWhatLiesBehindThemInLaterOnes) {
 }
 
 // 46341 x 46341 pixels have more than 2^31 and four floats each more than 2^32.
+TEST(FrameProgress, RunsForwardOverBucketsAndChunks) {
+    Renderer renderer(testSettings());
+    Scene scene = reference::sceneOf({reference::bumpyBezierMesh(1, 400)});
+    const Camera camera = lookAt({0.0F, 0.0F, 10.0F}, {0.0F, 0.0F, 0.0F}, 30.0F);
+    renderer.setScene(scene);
+    RenderOptions options = pictureOptions(160, 120, 1);
+    options.batch = 64;
+    options.aovs = Aov::none;
+    options.bucketWidth = options.bucketHeight = 64;
+    options.memoryBytes = 400000;
+    double last = 0.0;
+    std::size_t times = 0;
+    const Frame frame = renderer.render(camera, options, [&](std::string_view stage, double fraction) {
+        EXPECT_GE(fraction, last) << stage;
+        EXPECT_LE(fraction, 1.0) << stage;
+        last = fraction;
+        ++times;
+    });
+    EXPECT_GT(frame.statistics.buckets, 1U);
+    EXPECT_GT(frame.statistics.chunks, 1U);
+    EXPECT_GT(times, frame.statistics.chunks);
+}
+
 TEST(FrameMemory, PlanesOfAPictureOfMoreThan32BitsOfFloatsLieApart) {
     const std::uint64_t pixels = std::uint64_t{46341} * 46341;
     const PictureLayout layout = layOutPicture(46341, 46341, allPlanes);
