@@ -1,26 +1,11 @@
 // The command line of tessera_bench: short options of its own, turned into Google Benchmark's where these exist.
 #include "arguments.h"
 
-#include <charconv>
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <system_error>
 
 namespace tessera::bench {
-
-namespace {
-
-int wholeNumber(const std::string& option, const std::string& text, int least) {
-    int value = 0;
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec != std::errc() || result.ptr != text.data() + text.size() || value < least) {
-        throw UsageError(option + ": '" + text + "' is no whole number from " + std::to_string(least));
-    }
-    return value;
-}
-
-}  // namespace
 
 Arguments parseArguments(const std::vector<std::string>& words, const std::string& defaultScenes) {
     Arguments arguments;

@@ -1,7 +1,8 @@
 // The command line of tessera_bench.
 #pragma once
 
-#include <stdexcept>
+#include "usage.h"
+
 #include <string>
 #include <vector>
 
@@ -13,11 +14,6 @@ struct Arguments {
     std::string cache;   // of compiled kernels; empty = the user's
     bool help = false;
     std::vector<std::string> benchmark;  // what is handed on to Google Benchmark: its flags
-};
-
-class UsageError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
 };
 
 // Throws UsageError. `defaultScenes`: the folder taken when none is named.

@@ -3,13 +3,14 @@
 
 import argparse
 import pathlib
-import re
 import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(ROOT / "bench"))
+
+import report_document  # noqa: E402
 
 try:
     from evaluation import plots, tables
@@ -76,29 +77,6 @@ def section(name, results, folder, images):
     return lines
 
 
-def write_report(results, out):
-    lines = ["# Evaluation"]
-    for name, heading in SECTIONS:
-        body = section(name, results, out, "")
-        if body:
-            lines += ["", f"## {heading}", ""] + body
-    (out / "evaluation.md").write_text("\n".join(lines) + "\n", encoding="utf-8")
-
-
-def update_document(results, document):
-    """Sections that were not measured stay as they are."""
-    text = document.read_text(encoding="utf-8")
-    for name, _ in SECTIONS:
-        begin, end = f"<!-- begin {name} -->\n", f"<!-- end {name} -->"
-        if text.count(begin) != 1 or text.count(end) != 1:
-            sys.exit(f"evaluate.py: error: {document} needs one {begin.strip()} and one {end} for what stands between them")
-        body = section(name, results, document.parent / "images/evaluation", "images/evaluation/")
-        if body:
-            text = re.sub(re.escape(begin) + ".*?" + re.escape(end), lambda _, body=body: begin + "\n".join(body) + "\n" + end, text,
-                          flags=re.DOTALL)
-    document.write_text(text, encoding="utf-8")
-
-
 def main():
     known, options = arguments()
     out = known.out or known.source or ROOT / "build/evaluation"
@@ -111,9 +89,11 @@ def main():
     except FileNotFoundError as missing:
         sys.exit(f"evaluate.py: error: {missing}")
     out.mkdir(parents=True, exist_ok=True)
-    write_report(results, out)
+    report_document.write_report(out / "evaluation.md", "Evaluation", SECTIONS, lambda name: section(name, results, out, ""))
     if known.document:
-        update_document(results, known.document)
+        images = known.document.parent / "images/evaluation"
+        report_document.update_document("evaluate.py", known.document, SECTIONS,
+                                        lambda name: section(name, results, images, "images/evaluation/"))
     print(f"{out / 'evaluation.md'}")
 
 

@@ -1,10 +1,9 @@
 // What writeImage() and checkImagePath() refuse, and what they leave behind when they do.
 #include "image_samples.h"
+#include "small_files.h"
 
-#include <sys/resource.h>
 #include <sys/stat.h>
 
-#include <csignal>
 #include <filesystem>
 #include <fstream>
 #include <string>
@@ -60,35 +59,12 @@ TEST_F(ImageFile, WritingReplacesAnOldFileAndHonoursTheUmask) {
     EXPECT_EQ(readPicture(file("a.png")).spec.width, 2);
 }
 
-// As a full disk, but without one: no file of this process may pass some size. Restores the limit.
-class SmallFiles {
-public:
-    explicit SmallFiles(rlim_t bytes) {
-        ::getrlimit(RLIMIT_FSIZE, &before_);
-        const rlimit limit{bytes, before_.rlim_max};
-        handler_ = std::signal(SIGXFSZ, SIG_IGN);
-        ::setrlimit(RLIMIT_FSIZE, &limit);
-    }
-    ~SmallFiles() {
-        ::setrlimit(RLIMIT_FSIZE, &before_);
-        std::signal(SIGXFSZ, handler_);
-    }
-    SmallFiles(const SmallFiles&) = delete;
-    SmallFiles& operator=(const SmallFiles&) = delete;
-    SmallFiles(SmallFiles&&) = delete;
-    SmallFiles& operator=(SmallFiles&&) = delete;
-
-private:
-    rlimit before_{};
-    void (*handler_)(int) = nullptr;
-};
-
 TEST_F(ImageFile, AFailedWriteLeavesNoTemporaryAndTheOldFile) {
     std::string message;
     for (const char* name : {"a.exr", "a.png", "a.tif", "a.jpg"}) {
         std::ofstream(file(name)) << "old";
         {
-            const SmallFiles limit(300);
+            const test::SmallFiles limit(300);
             message = errorOf([&] { writeImage(file(name), gradient(40, 40).frame, {}); });
         }
         EXPECT_NE(message.find(name), std::string::npos) << message;

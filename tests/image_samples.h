@@ -2,11 +2,11 @@
 #pragma once
 
 #include "formats/image_file.h"
+#include "output_folder.h"
 #include "tessera/error.h"
 
 #include <OpenImageIO/imageio.h>
 #include <gtest/gtest.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -23,28 +23,7 @@ namespace tessera {
 
 namespace fs = std::filesystem;
 
-// A folder of its own for each test, removed after it.
-class ImageFile : public testing::Test {
-protected:
-    void SetUp() override {
-        const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        folder_ = fs::temp_directory_path() / ("tessera_image_" + std::string(info->name()) + "_" + std::to_string(::getpid()));
-        fs::create_directories(folder_);
-    }
-    void TearDown() override { fs::remove_all(folder_); }
-
-    [[nodiscard]] fs::path file(const std::string& name) const { return folder_ / name; }
-
-    [[nodiscard]] std::vector<std::string> files() const {
-        std::vector<std::string> names;
-        for (const auto& entry : fs::directory_iterator(folder_)) names.push_back(entry.path().filename().string());
-        std::sort(names.begin(), names.end());
-        return names;
-    }
-
-private:
-    fs::path folder_;
-};
+class ImageFile : public test::OutputFolder {};
 
 // A frame with planes of its own: what a renderer would hold.
 struct TestFrame {

@@ -1,11 +1,10 @@
 // Mesh files read with Assimp: what of them becomes meshes, objects, colours, lights and cameras. Damage: mesh_damage_test.cpp.
 #include "formats/mesh_file.h"
 #include "mesh_file_samples.h"
+#include "output_folder.h"
 #include "triangle_samples.h"
 
 #include <gtest/gtest.h>
-
-#include <unistd.h>
 
 #include <cmath>
 #include <filesystem>
@@ -19,23 +18,8 @@ namespace {
 
 constexpr double kFloat = 1e-6;
 
-// A folder of its own that goes with the test.
-class MeshFile : public ::testing::Test {
-public:
-    MeshFile(const MeshFile&) = delete;
-    MeshFile& operator=(const MeshFile&) = delete;
-    ~MeshFile() override {
-        std::error_code ignored;
-        std::filesystem::remove_all(folder_, ignored);
-    }
-
+class MeshFile : public test::OutputFolder {
 protected:
-    MeshFile() {
-        folder_ = std::filesystem::temp_directory_path() /
-                  ("tessera_mesh_" + std::to_string(::getpid()) + "_" + ::testing::UnitTest::GetInstance()->current_test_info()->name());
-        std::filesystem::create_directories(folder_);
-    }
-
     [[nodiscard]] std::filesystem::path write(const std::string& fileName, const std::string& text) const {
         std::filesystem::path path = folder_ / fileName;
         std::filesystem::create_directories(path.parent_path());
@@ -52,8 +36,6 @@ protected:
             return error.what();
         }
     }
-
-    std::filesystem::path folder_;
 };
 
 Scene parse(const std::string& text, const std::string& fileName, bool flat = false, std::vector<std::string>* warnings = nullptr) {

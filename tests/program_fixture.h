@@ -68,4 +68,11 @@ struct BadInput {
 
 inline void PrintTo(const BadInput& bad, std::ostream* stream) { *stream << bad.name; }
 
+// Of wrong command lines, not of wrong input, the message leads to the help.
+inline void expectRefused(const Outcome& outcome, const BadInput& bad) {
+    expectOneLineError(outcome, bad.exitCode);
+    EXPECT_NE(outcome.err.find(bad.says), std::string::npos) << outcome.err;
+    EXPECT_EQ(outcome.exitCode == 2, outcome.err.find("--help'") != std::string::npos) << outcome.err;
+}
+
 }  // namespace tessera::test

@@ -83,8 +83,7 @@ class ProgramGenerateRefuses : public ProgramGenerates, public testing::WithPara
 
 TEST_P(ProgramGenerateRefuses, WithOneLineAndNoFile) {
     const Outcome outcome = generate(GetParam().arguments);
-    expectOneLineError(outcome, GetParam().exitCode);
-    EXPECT_NE(outcome.err.find(GetParam().says), std::string::npos) << outcome.err;
+    expectRefused(outcome, GetParam());
     EXPECT_TRUE(folder_.fileNames().empty());
 }
 

@@ -12,8 +12,10 @@ wanted=(
 )
 case "${1-}" in
     "") ;;
-    --with-tests) wanted+=(libgtest-dev libbenchmark-dev clang libclang-rt-dev llvm clang-format clang-tidy) ;;
-    --with-bench) wanted+=(libbenchmark-dev python3-matplotlib) ;;
+    --with-bench) wanted+=(libbenchmark-dev python3-matplotlib libosd-dev
+        # A header that the modeling packages include is in the visualization one.
+        libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-visualization-dev) ;;
+    --with-tests) wanted+=(libgtest-dev libbenchmark-dev libembree-dev clang libclang-rt-dev llvm clang-format clang-tidy) ;;
     *) echo "usage: tools/setup.sh [--with-tests | --with-bench]" >&2; exit 2 ;;
 esac
 

@@ -11,7 +11,7 @@ tidy=$(command -v clang-tidy-14 || command -v clang-tidy) || { echo "tidy: clang
 if (($# > 0)); then
     sources=("$@")
 else
-    mapfile -t sources < <(find src apps tests bench -name '*.cpp' -not -path 'tests/install_consumer/*' -not -path '*/fuzz/*' | sort)
+    mapfile -t sources < <(find src apps tests bench examples -name '*.cpp' -not -path 'tests/install_consumer/*' -not -path '*/fuzz/*' | sort)
 fi
 # gcc's options that clang does not know are no findings.
 printf '%s\0' "${sources[@]}" | xargs -0 -n 1 -P "$(nproc)" "$tidy" -p "$database" --quiet --extra-arg=-Wno-unknown-warning-option 2>/dev/null

@@ -22,6 +22,7 @@ public:
 
 // `commandLine` is the whole command line as typed; it is kept in the pictures.
 [[nodiscard]] Command addRenderCommand(CLI::App& app, const std::string& commandLine);
+[[nodiscard]] Command addTessellateCommand(CLI::App& app);
 [[nodiscard]] Command addInfoCommand(CLI::App& app);
 [[nodiscard]] Command addGenerateCommand(CLI::App& app);
 [[nodiscard]] Command addDevicesCommand(CLI::App& app);

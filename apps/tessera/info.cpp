@@ -6,6 +6,7 @@
 #include "mode_options.h"
 #include "plan_options.h"
 #include "render_arguments.h"
+#include "shared_options.h"
 #include "show_plan.h"
 #include "tessera/scene.h"
 

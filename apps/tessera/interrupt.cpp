@@ -2,6 +2,7 @@
 #include "interrupt.h"
 
 #include <array>
+#include <utility>
 
 namespace tessera::program {
 
@@ -50,9 +51,30 @@ void Interrupt::watch() {
     while (!ended_) {
         int signal = 0;
         if (sigwait(&waited, &signal) != 0 || signal == kWakeUp) continue;
-        const auto whole = files();
-        endProcessBy(signal);
+        end(signal);
     }
+}
+
+void Interrupt::end(int signal) {
+    const std::lock_guard next(next_);
+    const std::lock_guard whole(files_);
+    if (removeParts_) removeParts_();
+    endProcessBy(signal);
+}
+
+std::unique_lock<std::mutex> Interrupt::files() {
+    const std::lock_guard next(next_);
+    return std::unique_lock(files_);
+}
+
+Interrupt::AtEnd::AtEnd(Interrupt& interrupt, std::function<void()> removeParts) : interrupt_(interrupt) {
+    const auto whole = interrupt_.files();
+    interrupt_.removeParts_ = std::move(removeParts);
+}
+
+Interrupt::AtEnd::~AtEnd() {
+    const auto whole = interrupt_.files();
+    interrupt_.removeParts_ = nullptr;
 }
 
 }  // namespace tessera::program

@@ -34,7 +34,7 @@ void readFile(LoadedScene& loaded, Source source, const SceneArguments& argument
     const std::string& file = arguments.scene;
     loaded.scene = source == Source::mscene ? readMscene(file, &loaded.warnings) : readMeshFile(file, arguments.flat, &loaded.warnings);
     if (loaded.scene.placedPatchCount() == 0) {
-        loaded.warnings.push_back(file + " places no patches: its picture shows the background alone");
+        loaded.warnings.push_back(file + " places no patches: there is nothing of it to be seen");
     }
 }
 

@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
+#include <csignal>
 #include <exception>
 #include <new>
 #include <span>
@@ -65,8 +66,8 @@ int parseAndRun(int argc, char** argv) {
     app.set_help_flag("-h,--help", "Print this help and exit");
     app.require_subcommand(0, 1);
     app.footer("Example: tessera render teapot -o teapot.png\n'tessera COMMAND --help' tells a command's options.");
-    const std::array commands{addRenderCommand(app, commandLineText({argv, static_cast<std::size_t>(argc)})), addInfoCommand(app),
-                              addGenerateCommand(app), addDevicesCommand(app)};
+    const std::array commands{addRenderCommand(app, commandLineText({argv, static_cast<std::size_t>(argc)})), addTessellateCommand(app),
+                              addInfoCommand(app), addGenerateCommand(app), addDevicesCommand(app)};
     try {
         app.parse(argc, argv);
     } catch (const CLI::Success& success) {
@@ -74,13 +75,15 @@ int parseAndRun(int argc, char** argv) {
     } catch (const CLI::ParseError& error) {
         return usageFailure(app, error.what());
     }
-    if (app.get_subcommands().empty()) return usageFailure(app, "no command given: render, info, generate or devices");
+    if (app.get_subcommands().empty()) return usageFailure(app, "no command given: render, tessellate, info, generate or devices");
     return run(app, commands);
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
+    // A file beyond the limit on sizes is an error of its write then, which is told.
+    std::signal(SIGXFSZ, SIG_IGN);
     try {
         return parseAndRun(argc, argv);
     } catch (const std::exception& error) {

@@ -106,6 +106,12 @@ double parseFraction(std::string_view text, double most) {
     return value;
 }
 
+double parsePositive(std::string_view text) {
+    const auto value = parseFinite<double>(text);
+    if (!(value > 0.0)) throw Error(inQuotes(text) + " is out of range: above 0");
+    return value;
+}
+
 long long parseWhole(std::string_view text, long long least, long long most) {
     long long value = 0;
     const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -155,6 +161,15 @@ std::string lowerEnding(const std::string& path) {
     std::string ending = std::filesystem::path(path).extension().string();
     std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
     return ending;
+}
+
+bool sameFile(const std::string& first, const std::string& second) {
+    if (first.empty() || second.empty()) return false;
+    std::error_code failure;
+    const auto whole = [&failure](const std::string& path) {
+        return std::filesystem::weakly_canonical(std::filesystem::absolute(path), failure);
+    };
+    return whole(first) == whole(second) && !failure;
 }
 
 }  // namespace tessera::program

@@ -29,6 +29,9 @@ constexpr int kSmallestBucketSide = 8;
 // A finite number from 0 to `most` and nothing else: "1e-5".
 [[nodiscard]] double parseFraction(std::string_view text, double most);
 
+// A finite number above 0 and nothing else: "0.25".
+[[nodiscard]] double parsePositive(std::string_view text);
+
 // A whole number from `least` to `most` and nothing else: "40000".
 [[nodiscard]] long long parseWhole(std::string_view text, long long least, long long most);
 
@@ -52,5 +55,8 @@ constexpr int kSmallestBucketSide = 8;
 
 // The ending of a file's name in small letters: ".exr" of "a/B.EXR"; empty where there is none.
 [[nodiscard]] std::string lowerEnding(const std::string& path);
+
+// Whether both name one file, by whatever path. Empty names do not.
+[[nodiscard]] bool sameFile(const std::string& first, const std::string& second);
 
 }  // namespace tessera::program

@@ -4,17 +4,14 @@
 #include "add_options.h"
 #include "console.h"
 #include "parse_values.h"
+#include "shared_options.h"
 
 #include <algorithm>
-#include <limits>
 #include <vector>
 
 namespace tessera::program {
 
 namespace {
-
-// 16 TiB, beyond all devices.
-constexpr long long kMostMebibytes = 1LL << 24;
 
 void readCrop(const std::string& text, std::array<float, 4>& crop) {
     const std::vector<float> numbers = parseNumbers(text, 4, 4);
@@ -60,12 +57,7 @@ void addMemoryOptions(CLI::App& app, RenderOptions& options) {
         "bounded, with a stack\na work-group)")
         ->type_name("NAME")
         ->default_str(std::string(name(options.method)));
-    const auto readMemory = [&options](const std::string& text) {
-        options.memoryBytes = static_cast<std::uint64_t>(parseWhole(text, 1, kMostMebibytes)) << 20;
-    };
-    addParsed(app, "--memory", readMemory,
-              "Device memory in MiB that a frame may take, 1 to 16777216; without it 512\nor a quarter of the device's, whichever is less")
-        ->type_name("MIB");
+    addMemoryOption(app, options.memoryBytes);
     addWhole(app, "--batch", options.batch, {0, 1 << 20}, "Ranges bounded at a time, 1 to 1048576; 0 is what fits the memory best")
         ->type_name("P");
     addParsed(
@@ -73,13 +65,6 @@ void addMemoryOptions(CLI::App& app, RenderOptions& options) {
         "Render the picture in parts of this many pixels, each side 8 to 65536,\nrounded up to tiles of samples; without it in as few as "
         "fit the memory")
         ->type_name("WxH");
-}
-
-void addDeviceOption(CLI::App& app, int& device) {
-    addWhole(app, "--device", device, {0, std::numeric_limits<int>::max()},
-             "Number of the device in 'tessera devices'; without it the first GPU, else\nthe first usable device")
-        ->type_name("I")
-        ->default_str("");
 }
 
 }  // namespace tessera::program

@@ -13,7 +13,4 @@ void addSizeOptions(CLI::App& app, RenderOptions& options);
 // --method, --memory, --batch and --bucket.
 void addMemoryOptions(CLI::App& app, RenderOptions& options);
 
-// --device: `device` is RendererSettings::device.
-void addDeviceOption(CLI::App& app, int& device);
-
 }  // namespace tessera::program

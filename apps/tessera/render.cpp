@@ -35,7 +35,7 @@ struct Rendering {
 void checkOutputs(const RenderArguments& arguments, Interrupt& interrupt) {
     const auto whole = interrupt.files();
     checkImagePath(arguments.output);
-    if (!arguments.stats.empty() && arguments.stats != "-") checkOutputFile(arguments.stats);
+    checkStatsFile(arguments.stats);
     if (!arguments.trace.empty()) checkOutputFile(arguments.trace);
 }
 
@@ -94,13 +94,7 @@ void writeOutputs(const Rendering& rendering, const Scene& scene, const Camera& 
     const Statistics& statistics = rendering.frame.statistics;
     writeImage(arguments.output, rendering.frame, pictureMetadata(commandLine, camera, arguments));
     if (!arguments.trace.empty()) writeText(arguments.trace, traceJson(statistics, scene.name));
-    if (arguments.stats.empty()) return;
-    const std::string stats = statsJson(statistics, scene.name, camera.name, rendering.frameMs);
-    if (arguments.stats == "-") {
-        printResult(stats);
-    } else {
-        writeText(arguments.stats, stats);
-    }
+    writeStats(arguments.stats, statsJson(statistics, scene.name, camera.name, rendering.frameMs));
 }
 
 std::string nothingInSight(DiceMode mode) {

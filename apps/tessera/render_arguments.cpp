@@ -7,10 +7,10 @@
 #include "mode_options.h"
 #include "parse_values.h"
 #include "plan_options.h"
+#include "shared_options.h"
 #include "tessera/error.h"
 
 #include <algorithm>
-#include <filesystem>
 #include <vector>
 
 namespace tessera::program {
@@ -21,17 +21,6 @@ void readBackground(const std::string& text, std::array<float, 4>& background) {
     const std::vector<float> numbers = parseNumbers(text, 3, 4);
     background[3] = 1.0F;
     std::copy(numbers.begin(), numbers.end(), background.begin());
-}
-
-Transform readLookAt(const std::string& text) {
-    const std::vector<float> n = parseNumbers(text, 6, 6);
-    return lookAt({n[0], n[1], n[2]}, {n[3], n[4], n[5]}, Camera{}.fovy).transform;
-}
-
-float readFov(const std::string& text) {
-    const float degrees = parseNumber(text);
-    if (!(degrees > 0.0F && degrees < 180.0F)) throw Error("'" + text + "' is out of range: above 0 and below 180 degrees");
-    return degrees;
 }
 
 void addPictureOptions(CLI::App& app, RenderArguments& arguments) {
@@ -49,23 +38,6 @@ void addPictureOptions(CLI::App& app, RenderArguments& arguments) {
     groupRest(app, "Picture");
 }
 
-void addCameraOptions(CLI::App& app, CameraArguments& camera) {
-    app.add_option("--camera", camera.name,
-                   "A camera of the scene; without it the first one, or one that sees all of a\nscene that has none")
-        ->type_name("NAME")
-        ->group("Camera");
-    addParsed(
-        app, "--look-at", [&camera](const std::string& text) { camera.lookAt = readLookAt(text); },
-        "Put the camera at E, looking at T, y up: six numbers in scene units")
-        ->type_name("EX,EY,EZ,TX,TY,TZ")
-        ->group("Camera");
-    addParsed(
-        app, "--fov", [&camera](const std::string& text) { camera.fov = readFov(text); },
-        "Vertical field of view in degrees, above 0 and below 180; without it the\ncamera's own")
-        ->type_name("DEG")
-        ->group("Camera");
-}
-
 void addSplitOptions(CLI::App& app, RenderArguments& arguments) {
     RenderOptions& options = arguments.options;
     addModeOptions(app, arguments, ModeOptions::all);
@@ -81,12 +53,7 @@ void addDeviceOptions(CLI::App& app, RenderArguments& arguments) {
         ->type_name("N");
     app.add_flag("--emulate-atomics", arguments.options.emulateAtomics,
                  "Hide with 32-bit atomics in two passes even where there are 64-bit ones");
-    app.add_option("--cache-dir", arguments.settings.cacheFolder,
-                   "Folder of compiled kernels; without it $TESSERA_CACHE,\n$XDG_CACHE_HOME/tessera or ~/.cache/tessera.\nNot used on "
-                   "PoCL, which keeps its own")
-        ->type_name("DIR");
-    app.add_flag_callback(
-        "--no-cache", [&arguments] { arguments.settings.cacheKernels = false; }, "Neither read nor write compiled kernels");
+    addCacheOptions(app, arguments.settings);
     groupRest(app, "Device");
 }
 
@@ -101,15 +68,6 @@ void addReportOptions(CLI::App& app, RenderArguments& arguments) {
         ->type_name("FILE.json")
         ->group("Reports");
     app.add_flag("--quiet", arguments.quiet, "No progress, notes or summary: errors alone")->group("Reports");
-}
-
-bool sameFile(const std::string& first, const std::string& second) {
-    if (first.empty() || second.empty()) return false;
-    std::error_code failure;
-    const auto whole = [&failure](const std::string& path) {
-        return std::filesystem::weakly_canonical(std::filesystem::absolute(path), failure);
-    };
-    return whole(first) == whole(second) && !failure;
 }
 
 }  // namespace

@@ -2,8 +2,10 @@
 #include "stats_json.h"
 
 #include "console.h"
+#include "formats/output_file.h"
 #include "tessera/renderer.h"
 
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <vector>
 
@@ -56,6 +58,19 @@ std::string statsJson(const Statistics& statistics, const std::string& scene, co
     for (const auto& [purpose, bytes] : statistics.deviceBytes) json["device_bytes"][purpose] = bytes;
     // Names come from files, whose bytes need not be UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+}
+
+void checkStatsFile(const std::string& path) {
+    if (!path.empty() && path != "-") checkOutputFile(path);
+}
+
+void writeStats(const std::string& path, const std::string& json) {
+    if (path.empty()) return;
+    if (path == "-") {
+        printResult(json);
+    } else {
+        writeOutputFile(path, std::as_bytes(std::span(json)));
+    }
 }
 
 }  // namespace tessera::program

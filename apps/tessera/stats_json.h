@@ -1,4 +1,4 @@
-// A frame's statistics as JSON.
+// A frame's statistics as JSON, and where --stats puts such texts.
 #pragma once
 
 #include "tessera/statistics.h"
@@ -12,5 +12,11 @@ namespace tessera::program {
 // was rendered, in order; `statistics` are those of the median one.
 [[nodiscard]] std::string statsJson(const Statistics& statistics, const std::string& scene, const std::string& camera,
                                     std::span<const double> frameMs);
+
+// Throws Error where writeStats() could not write `path`.
+void checkStatsFile(const std::string& path);
+
+// Writes `json` to the file `path`; to standard output where it is "-", nowhere where it is empty. Throws Error.
+void writeStats(const std::string& path, const std::string& json);
 
 }  // namespace tessera::program

@@ -1,32 +1,20 @@
 // The command line of tessera_evaluate.
 #include "evaluation/arguments.h"
 
-#include <charconv>
 #include <cstddef>
 #include <functional>
 #include <map>
 #include <regex>
-#include <system_error>
 
 namespace tessera::bench {
 
 namespace {
 
-int wholeNumber(const std::string& option, const std::string& text, int least, int most) {
-    int value = 0;
-    const auto result = std::from_chars(text.data(), text.data() + text.size(), value);
-    if (result.ec != std::errc() || result.ptr != text.data() + text.size() || value < least || value > most) {
-        throw EvaluationUsageError(option + ": '" + text + "' is no whole number from " + std::to_string(least) + " to " +
-                                   std::to_string(most));
-    }
-    return value;
-}
-
 std::string regularExpression(const std::string& text) {
     try {
         static_cast<void>(std::regex(text));
     } catch (const std::regex_error& error) {
-        throw EvaluationUsageError("--filter: '" + text + "' is no regular expression: " + error.what());
+        throw UsageError("--filter: '" + text + "' is no regular expression: " + error.what());
     }
     return text;
 }
@@ -57,12 +45,12 @@ EvaluationArguments parseEvaluationArguments(const std::vector<std::string>& wor
     for (std::size_t i = 0; i < words.size(); ++i) {
         const std::string& word = words[i];
         if (const auto option = withValue.find(word); option != withValue.end()) {
-            if (i + 1 == words.size()) throw EvaluationUsageError(word + " needs a value");
+            if (i + 1 == words.size()) throw UsageError(word + " needs a value");
             option->second(words[++i]);
         } else if (const auto flag = flags.find(word); flag != flags.end()) {
             *flag->second = true;
         } else {
-            throw EvaluationUsageError("unknown option '" + word + "'");
+            throw UsageError("unknown option '" + word + "'");
         }
     }
     if (arguments.quick && !runsGiven) arguments.runs = 1;

@@ -1,7 +1,8 @@
 // The command line of tessera_evaluate.
 #pragma once
 
-#include <stdexcept>
+#include "usage.h"
+
 #include <string>
 #include <vector>
 
@@ -21,12 +22,7 @@ struct EvaluationArguments {
     bool help = false;
 };
 
-class EvaluationUsageError : public std::runtime_error {
-public:
-    using std::runtime_error::runtime_error;
-};
-
-// Throws EvaluationUsageError. `defaultScenes`: the folder taken when none is named.
+// Throws UsageError. `defaultScenes`: the folder taken when none is named.
 [[nodiscard]] EvaluationArguments parseEvaluationArguments(const std::vector<std::string>& words, const std::string& defaultScenes);
 
 [[nodiscard]] std::string evaluationHelp(const std::string& defaultScenes);

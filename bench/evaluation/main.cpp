@@ -70,7 +70,7 @@ int run(const std::vector<std::string>& words) {
     }
     const EvaluationScenes scenes = scenesOf(arguments);
     const std::vector<Group> groups = planGroups(scenes, arguments.quick ? quickSizes() : PlanSizes{}, arguments.filter);
-    if (groups.empty()) throw EvaluationUsageError("--filter: no trial's name matches '" + arguments.filter + "'; --list names all");
+    if (groups.empty()) throw UsageError("--filter: no trial's name matches '" + arguments.filter + "'; --list names all");
     if (arguments.list) {
         for (const Group& group : groups) {
             for (const Trial& trial : group.trials) std::cout << name(trial) << "\n";
@@ -86,7 +86,7 @@ int run(const std::vector<std::string>& words) {
 int main(int argc, char** argv) {
     try {
         return run(std::vector<std::string>(argv + 1, argv + argc));
-    } catch (const EvaluationUsageError& error) {
+    } catch (const UsageError& error) {
         std::cerr << "tessera_evaluate: error: " << error.what() << "; see --help\n";
         return 2;
     } catch (const std::exception& error) {

@@ -7,14 +7,6 @@
 namespace tessera {
 namespace {
 
-const std::vector<std::string>& kernelFiles() {
-    static const std::vector<std::string> files = {
-        "surface/place.cl",     "surface/evaluate.cl",  "split/split.cl",      "split/quad_split.cl", "split/feed.cl",
-        "split/local_quads.cl", "split/local_boxes.cl", "split/local_book.cl", "dice/dice_hide.cl",   "film/resolve.cl",
-        "film/coarse.cl",       "shade/shade.cl",       "shade/shade_chunk.cl"};
-    return files;
-}
-
 std::string buildOptions(const OpenDevice& device) {
     std::string options = "-cl-std=CL1.2 -DGROUP=" + std::to_string(device.shape.group) + " -DLANES=" + std::to_string(device.shape.lanes) +
                           " -DATOMICS64=" + (device.info.atomics64 ? "1" : "0");
@@ -24,10 +16,24 @@ std::string buildOptions(const OpenDevice& device) {
 
 }  // namespace
 
-Kernels::Kernels(const OpenDevice& device, const KernelSources& sources, const std::filesystem::path& cacheFolder) {
+const KernelFiles& renderKernelFiles() {
+    static const KernelFiles files = {"surface/place.cl",    "surface/evaluate.cl",  "split/split.cl",       "split/quad_split.cl",
+                                      "split/feed.cl",       "split/local_quads.cl", "split/local_boxes.cl", "split/local_book.cl",
+                                      "dice/dice_hide.cl",   "film/resolve.cl",      "film/coarse.cl",       "shade/shade.cl",
+                                      "shade/shade_chunk.cl"};
+    return files;
+}
+
+const KernelFiles& meshKernelFiles() {
+    static const KernelFiles files = {"surface/place.cl", "mesh/factors.cl", "mesh/offsets.cl", "mesh/vertices.cl", "mesh/indices.cl"};
+    return files;
+}
+
+Kernels::Kernels(const OpenDevice& device, const KernelSources& sources, const std::filesystem::path& cacheFolder,
+                 const KernelFiles& files) {
     const auto start = std::chrono::steady_clock::now();
     const std::filesystem::path folder = keepsOwnCache(device.info) ? std::filesystem::path() : cacheFolder;
-    program_ = buildProgram(device, {assembleKernels(sources, kernelFiles()), buildOptions(device), folder});
+    program_ = buildProgram(device, {assembleKernels(sources, files), buildOptions(device), folder});
     try {
         std::vector<cl::Kernel> kernels;
         program_.createKernels(&kernels);

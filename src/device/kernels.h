@@ -4,16 +4,23 @@
 #include <map>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "device/kernel_sources.h"
 #include "device/program_cache.h"
 
 namespace tessera {
 
+// What a program is made of: files below src/, which may include others.
+using KernelFiles = std::vector<std::string>;
+[[nodiscard]] const KernelFiles& renderKernelFiles();  // of a Renderer
+[[nodiscard]] const KernelFiles& meshKernelFiles();    // of a Tessellator
+
 class Kernels {
 public:
-    // Builds `sources` (kernelSources(), or a test's variation of them) for the device's shape.
-    Kernels(const OpenDevice& device, const KernelSources& sources, const std::filesystem::path& cacheFolder);
+    // Builds `files` of `sources` (kernelSources(), or a test's variation of them) for the device's shape.
+    Kernels(const OpenDevice& device, const KernelSources& sources, const std::filesystem::path& cacheFolder,
+            const KernelFiles& files = renderKernelFiles());
 
     // A kernel with its arguments set in order. Kernels are made once; each call sets all arguments anew.
     template <typename... Arguments>

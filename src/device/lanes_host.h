@@ -36,6 +36,8 @@ T load_lanes(const T* pointer) {
 inline vint vlane_index() { return 0; }
 inline vint vfirst(vint x) { return x; }
 inline float vto_float(vint x) { return static_cast<float>(x); }
+inline vint vto_int(float x) { return static_cast<vint>(x); }
+inline uint min(uint a, uint b) { return std::min(a, b); }
 inline vint vas_int(float x) { return std::bit_cast<vint>(x); }
 inline float vas_float(vint x) { return std::bit_cast<float>(x); }
 

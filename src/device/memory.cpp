@@ -1,5 +1,6 @@
 #include "device/memory.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -97,5 +98,7 @@ std::string bytesText(std::uint64_t bytes) {
                   static_cast<unsigned long long>(bytes));
     return text;
 }
+
+std::uint64_t defaultBudget(const DeviceInfo& device) { return std::min(std::uint64_t{512} << 20, device.globalBytes / 4); }
 
 }  // namespace tessera

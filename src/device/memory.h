@@ -61,6 +61,9 @@ private:
     std::uint64_t budget_;
 };
 
+// What a user's work may take where nothing else was said: 512 MiB or a quarter of the device's memory, whichever is less.
+[[nodiscard]] std::uint64_t defaultBudget(const DeviceInfo& device);
+
 // "64.0 MiB (67108864 bytes)".
 [[nodiscard]] std::string bytesText(std::uint64_t bytes);
 

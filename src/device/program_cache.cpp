@@ -89,6 +89,11 @@ fs::path defaultCacheFolder() {
     return {};
 }
 
+std::filesystem::path cacheFolder(bool cacheKernels, const std::string& folder) {
+    if (!cacheKernels) return {};
+    return folder.empty() ? defaultCacheFolder() : std::filesystem::path(folder);
+}
+
 bool keepsOwnCache(const DeviceInfo& info) { return info.platform == "Portable Computing Language"; }
 
 cl::Program buildProgram(const OpenDevice& device, const BuildRequest& request) {

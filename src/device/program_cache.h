@@ -17,6 +17,9 @@ struct BuildRequest {
 // $TESSERA_CACHE, else $XDG_CACHE_HOME/tessera, else ~/.cache/tessera; empty where none of them is known.
 [[nodiscard]] std::filesystem::path defaultCacheFolder();
 
+// Where a renderer keeps its kernels: `folder`, the default one where that is empty, or none.
+[[nodiscard]] std::filesystem::path cacheFolder(bool cacheKernels, const std::string& folder);
+
 // Whether the platform keeps built kernels on disk itself, as PoCL does. Asking PoCL for a program's binary makes it compile every kernel
 // for unknown group sizes: 5 s, to save nothing.
 [[nodiscard]] bool keepsOwnCache(const DeviceInfo& info);

@@ -9,8 +9,9 @@
 namespace tessera {
 
 struct DeviceSession {
-    DeviceSession(int deviceIndex, const KernelSources& sources, const std::filesystem::path& cacheFolder, int lanes = 0)
-        : device(openDevice(deviceIndex, lanes)), memory(device), timeline(device), kernels(device, sources, cacheFolder) {}
+    DeviceSession(int deviceIndex, const KernelSources& sources, const std::filesystem::path& cacheFolder, int lanes = 0,
+                  const KernelFiles& files = renderKernelFiles())
+        : device(openDevice(deviceIndex, lanes)), memory(device), timeline(device), kernels(device, sources, cacheFolder, files) {}
     DeviceSession(const DeviceSession&) = delete;
     DeviceSession& operator=(const DeviceSession&) = delete;
     ~DeviceSession() = default;

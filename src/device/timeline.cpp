@@ -22,6 +22,10 @@ void Timeline::write(const cl::Buffer& buffer, const void* data, std::size_t byt
     device_.queue.enqueueWriteBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, record("write"));
 }
 
+void Timeline::writeAt(const cl::Buffer& buffer, std::size_t offset, const void* data, std::size_t bytes) {
+    device_.queue.enqueueWriteBuffer(buffer, CL_TRUE, offset, bytes, data, nullptr, record("write"));
+}
+
 void Timeline::read(const cl::Buffer& buffer, void* data, std::size_t bytes) {
     device_.queue.enqueueReadBuffer(buffer, CL_TRUE, 0, bytes, data, nullptr, record("read"));
 }

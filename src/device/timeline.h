@@ -22,8 +22,9 @@ public:
     // Launches `groups` work-groups of `local` work-items. The label is the kernel's name.
     void launch(const cl::Kernel& kernel, const std::string& label, std::size_t groups, std::size_t local);
     void fill(const cl::Buffer& buffer, cl_uint pattern, std::size_t bytes);
-    void write(const cl::Buffer& buffer, const void* data, std::size_t bytes);  // returns when `data` may be reused
-    void read(const cl::Buffer& buffer, void* data, std::size_t bytes);         // returns when `data` is there
+    void write(const cl::Buffer& buffer, const void* data, std::size_t bytes);                        // returns when `data` may be reused
+    void writeAt(const cl::Buffer& buffer, std::size_t offset, const void* data, std::size_t bytes);  // the same, from `offset` bytes on
+    void read(const cl::Buffer& buffer, void* data, std::size_t bytes);                               // returns when `data` is there
     void copy(const cl::Buffer& from, const cl::Buffer& to, std::size_t bytes);
     // Starts a read; `data` must stay until the event is complete.
     [[nodiscard]] cl::Event readLater(const cl::Buffer& buffer, void* data, std::size_t bytes);

@@ -10,9 +10,11 @@
 #include <cerrno>
 #include <cstdint>
 #include <cstdio>
+#include <limits>
 #include <random>
 #include <string>
 #include <system_error>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -39,56 +41,53 @@ std::string advice(int error) {
 
 fs::path folderOf(const fs::path& path) { return path.has_parent_path() ? path.parent_path() : fs::path("."); }
 
-// A new file in a folder, removed again unless it was given its name.
-class TemporaryFile {
-public:
-    explicit TemporaryFile(const fs::path& target) : target_(target), temporary_(folderOf(target) / randomName()) {
-        // Not mkstemp: the file keeps its permissions when it is renamed, and these are the umask's business.
-        descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-        if (descriptor_ < 0) fail(target_, errno);
-    }
-    ~TemporaryFile() {
-        if (descriptor_ >= 0) ::close(descriptor_);
-        if (!named_) ::unlink(temporary_.c_str());
-    }
-    TemporaryFile(const TemporaryFile&) = delete;
-    TemporaryFile& operator=(const TemporaryFile&) = delete;
-    TemporaryFile(TemporaryFile&&) = delete;
-    TemporaryFile& operator=(TemporaryFile&&) = delete;
-
-    void write(std::span<const std::byte> bytes) {
-        while (!bytes.empty()) {
-            const ssize_t written = ::write(descriptor_, bytes.data(), bytes.size());
-            if (written < 0 && errno != EINTR) fail(target_, errno);
-            if (written > 0) bytes = bytes.subspan(static_cast<std::size_t>(written));
-        }
-    }
-
-    void giveName() {
-        // Errors of delayed writes show here, and a crash after the rename leaves no empty file.
-        if (::fsync(descriptor_) != 0 && errno != EINVAL) fail(target_, errno);
-        const int descriptor = descriptor_;
-        descriptor_ = -1;
-        if (::close(descriptor) != 0) fail(target_, errno);
-        if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(target_, errno);
-        named_ = true;
-    }
-
-private:
-    static std::string randomName() {
-        std::random_device source;
-        std::array<char, 48> text{};
-        std::snprintf(text.data(), text.size(), ".tessera-%08x%08x.tmp", source(), source());
-        return text.data();
-    }
-
-    fs::path target_;
-    fs::path temporary_;
-    int descriptor_ = -1;
-    bool named_ = false;
-};
+std::string randomName() {
+    std::random_device source;
+    std::array<char, 48> text{};
+    std::snprintf(text.data(), text.size(), ".tessera-%08x%08x.tmp", source(), source());
+    return text.data();
+}
 
 }  // namespace
+
+OutputFile::OutputFile(fs::path path) : target_(std::move(path)), temporary_(folderOf(target_) / randomName()) {
+    // Not mkstemp: the file keeps its permissions when it is renamed, and these are the umask's business.
+    descriptor_ = ::open(temporary_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor_ < 0) fail(target_, errno);
+}
+
+OutputFile::~OutputFile() {
+    if (descriptor_ >= 0) ::close(descriptor_);
+    if (!named_) ::unlink(temporary_.c_str());
+}
+
+void OutputFile::reserve(std::uint64_t bytes) {
+    if (bytes == 0) return;
+    if (bytes > static_cast<std::uint64_t>(std::numeric_limits<off_t>::max())) fail(target_, EFBIG);
+    int error = EINTR;
+    while (error == EINTR) error = ::posix_fallocate(descriptor_, 0, static_cast<off_t>(bytes));
+    if (error != 0 && error != EOPNOTSUPP && error != EINVAL) fail(target_, error);
+}
+
+void OutputFile::write(std::uint64_t offset, std::span<const std::byte> bytes) {
+    while (!bytes.empty()) {
+        const ssize_t written = ::pwrite(descriptor_, bytes.data(), bytes.size(), static_cast<off_t>(offset));
+        if (written < 0 && errno != EINTR) fail(target_, errno);
+        if (written <= 0) continue;
+        bytes = bytes.subspan(static_cast<std::size_t>(written));
+        offset += static_cast<std::uint64_t>(written);
+    }
+}
+
+void OutputFile::giveName() {
+    // Errors of delayed writes show here, and a crash after the rename leaves no empty file.
+    if (::fsync(descriptor_) != 0 && errno != EINVAL) fail(target_, errno);
+    const int descriptor = descriptor_;
+    descriptor_ = -1;
+    if (::close(descriptor) != 0) fail(target_, errno);
+    if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail(target_, errno);
+    named_ = true;
+}
 
 void checkOutputFile(const fs::path& path) {
     const fs::path folder = folderOf(path);
@@ -106,13 +105,13 @@ void checkOutputFile(const fs::path& path) {
     if (fs::exists(status) && !fs::is_regular_file(status)) {
         throw Error("cannot write '" + path.string() + "': it exists and is no ordinary file; choose another name");
     }
-    const TemporaryFile probe(path);
+    const OutputFile probe(path);
 }
 
 void writeOutputFile(const fs::path& path, std::span<const std::byte> bytes) {
     checkOutputFile(path);
-    TemporaryFile file(path);
-    file.write(bytes);
+    OutputFile file(path);
+    file.write(0, bytes);
     file.giveName();
 }
 

@@ -18,11 +18,6 @@ constexpr std::uint32_t collectLeast = 1024;
 // How far a bucket of a streamed scene counts as done when all is hidden and its chunks come back to be shaded.
 constexpr double splitShare = 0.9;
 
-std::filesystem::path cacheFolderOf(const RendererSettings& settings) {
-    if (!settings.cacheKernels) return {};
-    return settings.cacheFolder.empty() ? defaultCacheFolder() : std::filesystem::path(settings.cacheFolder);
-}
-
 // Whether two plans' buffers are of the same sizes, within the same budget.
 bool sameRoom(const MemoryPlan& a, const MemoryPlan& b) {
     const auto room = [](const MemoryPlan& plan) {
@@ -36,7 +31,7 @@ bool sameRoom(const MemoryPlan& a, const MemoryPlan& b) {
 }  // namespace
 
 Stations::Stations(const RendererSettings& settings)
-    : session(settings.device, kernelSources(), cacheFolderOf(settings), settings.lanes),
+    : session(settings.device, kernelSources(), cacheFolder(settings.cacheKernels, settings.cacheFolder), settings.lanes),
       stream(session),
       queues(session),
       local(session),

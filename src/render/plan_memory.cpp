@@ -310,8 +310,6 @@ TooLarge Planner::tooLarge() {
 
 }  // namespace
 
-std::uint64_t defaultBudget(const DeviceInfo& device) { return std::min(std::uint64_t{512} << 20, device.globalBytes / 4); }
-
 std::uint64_t frameBudget(const RenderOptions& options, const DeviceInfo& device) {
     return std::min(options.memoryBytes != 0 ? options.memoryBytes : defaultBudget(device), device.globalBytes);
 }

@@ -12,9 +12,6 @@
 
 namespace tessera {
 
-// 512 MiB or a quarter of the device's memory, whichever is less.
-[[nodiscard]] std::uint64_t defaultBudget(const DeviceInfo& device);
-
 // What the frame's buffers may take: what the options say or the default, never more than the device holds.
 [[nodiscard]] std::uint64_t frameBudget(const RenderOptions& options, const DeviceInfo& device);
 

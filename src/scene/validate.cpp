@@ -150,6 +150,8 @@ void checkLight(const Light& light, const std::string& where) {
 
 }  // namespace
 
+void validatePoints(const Mesh& mesh, const std::string& where) { checkPoints(mesh, where); }
+
 void validateCamera(const Camera& camera, const std::string& where) {
     // The eye may stand beyond 1e9: that is where it sees all of a scene of that size.
     if (!isFinite(camera.transform.translation)) {

@@ -106,7 +106,7 @@ std::uint64_t deviceBytes(std::uint64_t count, std::uint64_t each) { return Devi
 
 struct PatchSource::Data {
     std::string sceneName;
-    std::vector<SourceMesh> meshes;
+    std::vector<std::shared_ptr<const SourceMesh>> meshes;
     std::vector<PlacedRun> runs;  // of at least one patch each, in the order of placed patches
     std::uint32_t bezierPatches = 0;
     std::uint32_t gregoryEnd = 0;
@@ -178,14 +178,13 @@ PatchSource::PatchSource(const Scene& scene) {
     auto data = std::make_shared<Data>();
     data->sceneName = scene.name;
     std::unordered_map<std::string_view, std::size_t> byName;
-    data->meshes.reserve(scene.meshes.size());  // runs point into it
     for (const Mesh& mesh : scene.meshes) {
         byName.emplace(mesh.name, data->meshes.size());
-        data->meshes.emplace_back(mesh);
+        data->meshes.push_back(std::make_shared<const SourceMesh>(mesh));
     }
     std::vector<const SourceMesh*> meshOf;
     meshOf.reserve(scene.objects.size());
-    for (const Object& object : scene.objects) meshOf.push_back(&data->meshes[byName.at(object.mesh)]);
+    for (const Object& object : scene.objects) meshOf.push_back(data->meshes[byName.at(object.mesh)].get());
     data->bezierPatches = data->appendRuns(meshOf, PatchKind::bezier);
     data->gregoryEnd = data->appendRuns(meshOf, PatchKind::gregory);
     data->rationalEnd = data->appendRuns(meshOf, PatchKind::rational);
@@ -247,6 +246,41 @@ void PatchSource::gather(std::uint32_t first, std::uint32_t end, PatchChunk& chu
     data_->forParts(first, end, [&](const Part& part) {
         stored.push_back(store(part, stored, chunk));
         place(part, stored.back(), chunk);
+        return true;
+    });
+}
+
+PatchSource PatchSource::withMesh(std::size_t index, const Mesh& mesh) const {
+    auto data = std::make_shared<Data>(*data_);
+    const SourceMesh* const old = data_->meshes[index].get();
+    data->meshes[index] = std::make_shared<const SourceMesh>(mesh);
+    for (PlacedRun& run : data->runs)
+        if (run.mesh == old) run.mesh = data->meshes[index].get();
+    PatchSource source;
+    source.data_ = std::move(data);
+    return source;
+}
+
+PatchSource::MeshFloats PatchSource::meshFloats(std::size_t index) const {
+    const SourceMesh* const wanted = data_->meshes[index].get();
+    MeshFloats found;
+    data_->forParts(0, patches(), [&](const Part& part) {
+        if (part.run->mesh == wanted) {
+            found.floats = wanted->floats;
+            return false;
+        }
+        found.first +=
+            std::uint64_t{part.freshEnd - part.freshBegin} * part.mesh().floatsEach + std::uint64_t{RECORD_FLOATS} * part.freshRecords();
+        return true;
+    });
+    return found;
+}
+
+std::span<const std::uint8_t> PatchSource::meshFlags(std::size_t index) const { return data_->meshes[index]->flags; }
+
+void PatchSource::forPatches(std::uint32_t first, std::uint32_t end, const std::function<void(std::uint32_t, std::uint32_t)>& take) const {
+    data_->forParts(first, end, [&](const Part& part) {
+        for (std::uint32_t patch = part.begin; patch < part.end; ++patch) take(part.run->object, patch);
         return true;
     });
 }

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <span>
 #include <vector>
@@ -61,6 +62,21 @@ public:
     // Fills `chunk`, whose memory is used again. What several objects of the chunk have of one mesh stands in it once. Throws Error
     // where it would have 2^32 floats or more.
     void gather(std::uint32_t first, std::uint32_t end, PatchChunk& chunk) const;
+
+    // The same with another mesh in the place of the scene's mesh `index`, of the same kind and number of patches, both without records.
+    [[nodiscard]] PatchSource withMesh(std::size_t index, const Mesh& mesh) const;
+    // Where the floats of mesh `index` begin in a chunk of all patches, and as gather() would make them. Empty of a mesh that no object
+    // has.
+    struct MeshFloats {
+        std::uint64_t first = 0;
+        std::span<const float> floats;
+    };
+    [[nodiscard]] MeshFloats meshFloats(std::size_t index) const;
+    // SIDE_* of each patch of mesh `index`.
+    [[nodiscard]] std::span<const std::uint8_t> meshFlags(std::size_t index) const;
+
+    // Object and patch in its mesh of placed patches [first, end), in order, by take(object, patch).
+    void forPatches(std::uint32_t first, std::uint32_t end, const std::function<void(std::uint32_t, std::uint32_t)>& take) const;
 
     // Whether anything of patches [first, end) may be seen within the frame's bounds (frame_params::cull_left and so on, near_plane) and a
     // pixel around them. Conservative: it tests boxes around runs of patches. `placed`: the frame's objects by index into Scene::objects.

@@ -120,6 +120,25 @@ void PatchStream::beginFrame(std::span<const placed_object> placed, std::span<co
     }
 }
 
+void PatchStream::replaceMesh(std::size_t index, const Mesh& mesh) {
+    PatchSource source = source_.withMesh(index, mesh);
+    Inputs& resident = inputs_[0];
+    if (chunks_ == 1 && resident.holds != noChunk) {
+        endUploads();
+        const PatchSource::MeshFloats floats = source.meshFloats(index);
+        if (!floats.floats.empty()) {
+            session_.timeline.writeAt(resident.patches.points.cl(), floats.first * sizeof(float), floats.floats.data(),
+                                      floats.floats.size_bytes());
+        }
+        // Which sides are points stands with the patches.
+        if (!std::ranges::equal(source.meshFlags(index), source_.meshFlags(index))) resident.holds = noChunk;
+    } else {
+        for (Inputs& inputs : inputs_) inputs.holds = noChunk;
+    }
+    source_ = std::move(source);
+    placedChunk_ = noChunk;
+}
+
 std::uint32_t PatchStream::endOf(std::uint32_t chunk) const {
     return static_cast<std::uint32_t>(std::min<std::uint64_t>(source_.patches(), std::uint64_t{firstOf(chunk)} + patchesEach_));
 }

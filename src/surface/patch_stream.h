@@ -44,6 +44,9 @@ public:
     // that is where reserve() had no `dicingApart`. Both must stay until the frame's end. Nothing waits.
     void beginFrame(std::span<const placed_object> placed, std::span<const placed_object> dicing);
 
+    // Takes other points of the scene's mesh `index`: of the same kind and number, without records. What is resident stays, but for these.
+    void replaceMesh(std::size_t index, const Mesh& mesh);
+
     // Whether anything of the chunk may be seen within the frame's bounds (frame_params::cull_left and so on, near_plane). Conservative.
     [[nodiscard]] bool mayShow(std::uint32_t chunk, const frame_params& frame) const;
 

@@ -30,21 +30,12 @@ std::vector<float> floatsOf(const Mesh& mesh, std::size_t floatsEach) {
     return floats;
 }
 
-using Border = std::array<std::size_t, 4>;
-
-// The control points of a patch's sides, in the order of EdgeRecord::side.
-std::array<Border, 4> bordersOf(PatchKind kind) {
-    if (kind == PatchKind::gregory) return {{{0, 4, 9, 1}, {1, 5, 10, 2}, {3, 11, 6, 2}, {0, 8, 7, 3}}};
-    if (kind == PatchKind::pn) return {{{0, 1, 2, 3}, {3, 6, 8, 9}, {9, 9, 9, 9}, {0, 4, 7, 9}}};
-    return {{{0, 1, 2, 3}, {3, 7, 11, 15}, {12, 13, 14, 15}, {0, 4, 8, 12}}};
-}
-
-std::uint32_t degenerateSides(const Mesh& mesh, const std::array<Border, 4>& borders, std::size_t patch) {
+std::uint32_t degenerateSides(const Mesh& mesh, const std::array<BorderPoints, 4>& borders, std::size_t patch) {
     const glm::vec3* const points = mesh.points.data() + patch * pointsPerPatch(mesh.kind);
     std::uint32_t flags = 0;
     for (std::size_t side = 0; side < 4; ++side) {
         if (mesh.kind == PatchKind::pn && side == 2) continue;
-        const Border& b = borders[side];
+        const BorderPoints& b = borders[side];
         const bool onePoint = std::all_of(b.begin(), b.end(), [&](std::size_t k) { return points[k] == points[b[0]]; });
         if (onePoint) flags |= SIDE_DEGENERATE << side;
     }
@@ -78,13 +69,19 @@ std::vector<ObjectBox> boxesOf(const Mesh& mesh) {
 
 }  // namespace
 
+std::array<BorderPoints, 4> bordersOf(PatchKind kind) {
+    if (kind == PatchKind::gregory) return {{{0, 4, 9, 1}, {1, 5, 10, 2}, {3, 11, 6, 2}, {0, 8, 7, 3}}};
+    if (kind == PatchKind::pn) return {{{0, 1, 2, 3}, {3, 6, 8, 9}, {9, 9, 9, 9}, {0, 4, 7, 9}}};
+    return {{{0, 1, 2, 3}, {3, 7, 11, 15}, {12, 13, 14, 15}, {0, 4, 8, 12}}};
+}
+
 SourceMesh::SourceMesh(const Mesh& mesh)
     : kind(mesh.kind),
       patches(static_cast<std::uint32_t>(mesh.patchCount())),
       floatsEach(static_cast<std::uint32_t>(mesh.kind == PatchKind::rational ? rationalFloats : 3 * pointsPerPatch(mesh.kind))),
       floats(floatsOf(mesh, floatsEach)),
       boxes(boxesOf(mesh)) {
-    const std::array<Border, 4> borders = bordersOf(kind);
+    const std::array<BorderPoints, 4> borders = bordersOf(kind);
     flags.reserve(patches);
     for (std::size_t patch = 0; patch < patches; ++patch) flags.push_back(static_cast<std::uint8_t>(degenerateSides(mesh, borders, patch)));
     if (mesh.edges.empty()) return;

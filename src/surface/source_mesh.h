@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,6 +10,11 @@
 #include "tessera/scene.h"
 
 namespace tessera {
+
+// The control points of a patch's sides, numbers within the patch, in the order and the directions of EdgeRecord::side; of a PN triangle's
+// side 2, which it has not, its corner C.
+using BorderPoints = std::array<std::size_t, 4>;
+[[nodiscard]] std::array<BorderPoints, 4> bordersOf(PatchKind kind);
 
 // Axis-aligned, in object space.
 struct ObjectBox {
