@@ -13,7 +13,7 @@ typedef struct {
     vint outside;      // whether the view is elsewhere
 } patch_measure;
 
-// Curves that draw the patch's sides reach in `reach` already.
+// Control points alone: curves of records that draw the patch's sides reach on in `reach` later.
 static inline patch_measure patch_measure_of(const mesh_view* view, const factor_net* net, int kind, factor_reach* reach) {
     patch_measure measure;
     factor_span eye;
@@ -75,6 +75,17 @@ static inline void store_turned(const mesh_view* view, factor_run run, global co
     }
 }
 
+static inline bool run_is_recorded(global const placed_patch* patches, factor_run run) {
+    uint flags = 0u;
+    for (int lane = 0; lane < LANES; ++lane) flags |= patches[factor_patch(run, lane)].flags;
+    return flags >= SIDE_RECORDED;
+}
+
+static inline void store_nothing(factor_run run, global mesh_pattern* patterns) {
+    const mesh_pattern nothing = {.form = MESH_NOTHING};
+    for (int lane = 0; lane < LANES && run.first + (uint)lane <= run.last; ++lane) patterns[run.first + (uint)lane] = nothing;
+}
+
 // What lies outside the view takes no part, and asks for nothing that could be refused.
 static inline void keep_seen(factor_pattern* p, vint outside) {
     vint seen = ~(outside | veq(p->form, (vint)(MESH_NOTHING)));
@@ -98,6 +109,12 @@ kernel void mesh_factors(frame_params frame, mesh_view view, global const float*
         factor_pattern pattern;
         edge_rate own[4], sides[4];
         factor_reach reach = factor_reach_of_nothing();
+        patch_measure measure = patch_measure_of(&view, &net, run.kind, &reach);
+        // Curves of records may reach into the view where the net does not.
+        if (!vany(~measure.outside) && !run_is_recorded(patches, run)) {
+            store_nothing(run, patterns);
+            continue;
+        }
         vint most = (vint)((int)MESH_RATE_MOST);
         pattern.refused = (vint)(0);
         for (int s = 0; s < 4; ++s) {
@@ -107,7 +124,7 @@ kernel void mesh_factors(frame_params frame, mesh_view view, global const float*
             pattern.refused |= vlt(most, segments) & 1;
             pattern.side[s] = min(segments, most);
         }
-        patch_measure measure = patch_measure_of(&view, &net, run.kind, &reach);
+        if (view.view && view.cull) measure.outside = factor_outside(&view, &reach);
         vpoint low = measure.span.low, high = measure.span.high;
         vfloat size = factor_length(high.x - low.x, high.y - low.y, high.z - low.z);
         if (run.kind == KIND_PN) {
