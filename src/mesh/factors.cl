@@ -100,45 +100,51 @@ static inline void keep_seen(factor_pattern* p, vint outside) {
     p->refused &= ~outside;
 }
 
+// A call, for PoCL keeps what a kernel's own body has on its stack once for every work-item of the group: megabytes of it.
+static __attribute__((noinline)) void factors_of_run(const frame_params* frame, const mesh_view* view, global const float* points,
+                                                     global const placed_patch* patches, global const edge_info* records,
+                                                     global const uint* turned, global mesh_pattern* patterns, factor_run run) {
+    factor_net net;
+    factor_gather(frame, points, run, &net);
+    factor_pattern pattern;
+    edge_rate own[4], sides[4];
+    factor_reach reach = factor_reach_of_nothing();
+    patch_measure measure = patch_measure_of(view, &net, run.kind, &reach);
+    // Curves of records may reach into the view where the net does not.
+    if (!vany(~measure.outside) && !run_is_recorded(patches, run)) {
+        store_nothing(run, patterns);
+        return;
+    }
+    vint most = (vint)((int)MESH_RATE_MOST);
+    pattern.refused = (vint)(0);
+    for (int s = 0; s < 4; ++s) {
+        pattern.side[s] = (vint)(0);
+        vint segments = side_segments(frame, view, points, patches, records, run, &net, s, own + s, sides + s, &reach);
+        if (run.kind == KIND_PN && s == 2) continue;
+        pattern.refused |= vlt(most, segments) & 1;
+        pattern.side[s] = min(segments, most);
+    }
+    if (view->view && view->cull) measure.outside = factor_outside(view, &reach);
+    vpoint low = measure.span.low, high = measure.span.high;
+    vfloat size = factor_length(high.x - low.x, high.y - low.y, high.z - low.z);
+    if (run.kind == KIND_PN) {
+        triangle_bounds bounds;
+        triangle_bounds_of(&net, measure.tolerance, &bounds);
+        triangle_pattern(&bounds, own, sides, measure.tolerance, size, &pattern);
+    } else {
+        second_bounds bounds;
+        second_settle_blends(&net, run.kind);
+        second_bounds_of(&net, run.kind, measure.span, measure.tolerance, &bounds);
+        quad_pattern(&bounds, own, sides, measure.tolerance, size, &pattern);
+    }
+    keep_seen(&pattern, measure.outside);
+    store_patterns(&pattern, run, patterns);
+    store_turned(view, run, turned, patterns);
+}
+
 kernel void mesh_factors(frame_params frame, mesh_view view, global const float* points, global const placed_patch* patches,
                          global const edge_info* records, global const uint* turned, global mesh_pattern* patterns) {
     factor_run run;
-    for (uint block = (uint)get_global_id(0); factor_run_at(&frame, block, &run); block += (uint)get_global_size(0)) {
-        factor_net net;
-        factor_gather(&frame, points, run, &net);
-        factor_pattern pattern;
-        edge_rate own[4], sides[4];
-        factor_reach reach = factor_reach_of_nothing();
-        patch_measure measure = patch_measure_of(&view, &net, run.kind, &reach);
-        // Curves of records may reach into the view where the net does not.
-        if (!vany(~measure.outside) && !run_is_recorded(patches, run)) {
-            store_nothing(run, patterns);
-            continue;
-        }
-        vint most = (vint)((int)MESH_RATE_MOST);
-        pattern.refused = (vint)(0);
-        for (int s = 0; s < 4; ++s) {
-            pattern.side[s] = (vint)(0);
-            vint segments = side_segments(&frame, &view, points, patches, records, run, &net, s, own + s, sides + s, &reach);
-            if (run.kind == KIND_PN && s == 2) continue;
-            pattern.refused |= vlt(most, segments) & 1;
-            pattern.side[s] = min(segments, most);
-        }
-        if (view.view && view.cull) measure.outside = factor_outside(&view, &reach);
-        vpoint low = measure.span.low, high = measure.span.high;
-        vfloat size = factor_length(high.x - low.x, high.y - low.y, high.z - low.z);
-        if (run.kind == KIND_PN) {
-            triangle_bounds bounds;
-            triangle_bounds_of(&net, measure.tolerance, &bounds);
-            triangle_pattern(&bounds, own, sides, measure.tolerance, size, &pattern);
-        } else {
-            second_bounds bounds;
-            second_settle_blends(&net, run.kind);
-            second_bounds_of(&net, run.kind, measure.span, measure.tolerance, &bounds);
-            quad_pattern(&bounds, own, sides, measure.tolerance, size, &pattern);
-        }
-        keep_seen(&pattern, measure.outside);
-        store_patterns(&pattern, run, patterns);
-        store_turned(&view, run, turned, patterns);
-    }
+    for (uint block = (uint)get_global_id(0); factor_run_at(&frame, block, &run); block += (uint)get_global_size(0))
+        factors_of_run(&frame, &view, points, patches, records, turned, patterns, run);
 }

@@ -65,7 +65,8 @@ typedef struct {
 } index_region;
 
 // Triangles [begin, end) of the region's zip, which `to` follows from its first on.
-static inline void put_slice(index_region r, uint begin, uint end, global uint* to) {
+static inline void put_slice(const index_region* region, uint begin, uint end, global uint* to) {
+    index_region r = *region;
     uint i = mesh_zip_skip(&r.zip, begin), k = begin - i;
     uint inner_step = r.inner.step + k * r.inner.turn;
     uint outer_raw = r.outer.first + i * r.outer.step;
@@ -106,10 +107,11 @@ static inline void put_slice(index_region r, uint begin, uint end, global uint* 
 }
 
 // The work-item's share of a region.
-static inline void put_region(index_region r, uint lid, global uint* to) {
-    uint count = r.end - r.first, share = (count + GROUP - 1u) / GROUP;
+// By reference: a copy would read what was just written in pieces, and wait for that.
+static inline void put_region(const index_region* r, uint lid, global uint* to) {
+    uint count = r->end - r->first, share = (count + GROUP - 1u) / GROUP;
     uint begin = min(lid * share, count), end = min(begin + share, count);
-    if (begin < end) put_slice(r, r.first + begin, r.first + end, to);
+    if (begin < end) put_slice(r, r->first + begin, r->first + end, to);
 }
 
 // All that lies between side s and the inner line beside it. A unit that is a side has no vertices but theirs.
@@ -121,7 +123,7 @@ static inline void put_side(const mesh_pattern* p, int s, bool alone, uint base,
     r.mirrored = (s >= 2 ? 1u : 0u) ^ p->turned;
     r.first = 0u;
     r.end = r.zip.outer + r.zip.inner;
-    put_region(r, lid, to);
+    put_region(&r, lid, to);
 }
 
 // Between sides `near_side` and `far_side`; `start` and `end` are the sides at the ribbon's ends.
@@ -135,7 +137,7 @@ static inline void put_ribbon(const mesh_pattern* p, int near_side, int far_side
     // Where an end is a point, two corners of the triangle there are one.
     r.first = p->side[start] == 0u ? 1u : 0u;
     r.end = r.first + mesh_ribbon_triangles(p->side[near_side], p->side[far_side], p->side[start], p->side[end]);
-    put_region(r, lid, to);
+    put_region(&r, lid, to);
 }
 
 // Side s and the corner opposite, which has number `apex` in the loop.
@@ -147,7 +149,7 @@ static inline void put_fan(const mesh_pattern* p, int s, uint apex, uint base, u
     r.mirrored = (s == 3 ? 1u : 0u) ^ p->turned;
     r.first = 0u;
     r.end = p->side[s];
-    put_region(r, lid, to);
+    put_region(&r, lid, to);
 }
 
 // What the indices of CELLS_AT_ONCE cells are made of, in the order in which they are stored: a vector's cells, and how much more each
@@ -159,6 +161,7 @@ typedef struct {
 
 static inline cell_vectors cell_vectors_of(uint width, uint turned) {
     cell_vectors v;
+#pragma unroll
     for (int k = 0; k < CELL_VECTORS; ++k) {
         vint index = vlane_index() + (vint)(k * LANES);
         v.cell[k] = index / (vint)(6);
@@ -192,6 +195,7 @@ static inline void put_cells(uint cells, uint count, uint turned, uint base, uin
         } else {
             // The last vectors end with the last cell, and store some cells once more.
             uint q = min(next, count - (uint)CELLS_AT_ONCE);
+#pragma unroll
             for (int k = 0; k < CELL_VECTORS; ++k)
                 store_lanes(cell_indices(&v, k, q, base, per_row), (global int*)to + 6ul * q + (ulong)(k * LANES));
         }

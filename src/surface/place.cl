@@ -38,15 +38,25 @@ static inline void place_corners(global const float* m, global const float* corn
     }
 }
 
-static inline void place_polynomial(global const float* m, global const float* points, int kind, global float* net) {
-    int count = kind == KIND_GREGORY ? GREGORY_POINTS : BEZIER_POINTS;
-    for (int k = 0; k < count; ++k) {
-        global const float* p = points + 3 * (kind == KIND_GREGORY ? gregory_net_source[k] : k);
+// Sixteen points at once, each coordinate as place_row gives it.
+static inline void place_sixteen(global const float* m, global const float* points, float16 w, global float* net) {
+    float16 a = vload16(0, points), b = vload16(1, points), c = vload16(2, points);
+    float16 x = (float16)(a.s0369, a.scf, b.s25, b.s8b, b.se, c.s1, c.s47ad);
+    float16 y = (float16)(a.s147a, a.sd, b.s0, b.s369c, b.sf, c.s2, c.s58be);
+    float16 z = (float16)(a.s258b, a.se, b.s1, b.s47ad, c.s0369, c.scf);
+    for (int row = 0; row < 3; ++row) {
+        global const float* r = m + 4 * row;
+        vstore16(r[0] * x + r[1] * y + r[2] * z + r[3] * w, row, net);
+    }
+}
+
+static inline void place_gregory(global const float* m, global const float* points, global float* net) {
+    for (int k = 0; k < GREGORY_POINTS; ++k) {
+        global const float* p = points + 3 * gregory_net_source[k];
         float x = p[0], y = p[1], z = p[2];
-        float w = kind == KIND_PN && k >= 10 ? 0.0f : 1.0f;  // normals only turn
-        net[k] = place_row(m, x, y, z, w);
-        net[count + k] = place_row(m + 4, x, y, z, w);
-        net[2 * count + k] = place_row(m + 8, x, y, z, w);
+        net[k] = place_row(m, x, y, z, 1.0f);
+        net[GREGORY_POINTS + k] = place_row(m + 4, x, y, z, 1.0f);
+        net[2 * GREGORY_POINTS + k] = place_row(m + 8, x, y, z, 1.0f);
     }
 }
 
@@ -60,8 +70,13 @@ kernel void place_patches(frame_params frame, global const float* points, global
         if (kind == KIND_RATIONAL) {
             place_homogeneous(m, points + placed.first_float, 16, net);
             place_corners(m, points + placed.first_float + 64, net + 64);
+        } else if (kind == KIND_GREGORY) {
+            place_gregory(m, points + placed.first_float, net);
         } else {
-            place_polynomial(m, points + placed.first_float, kind, net);
+            // Of a PN triangle the last six are normals, which only turn.
+            float16 all = (float16)(1.0f);
+            if (kind == KIND_PN) all.hi = (float8)(1.0f, 1.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f, 0.0f);
+            place_sixteen(m, points + placed.first_float, all, net);
         }
     }
 }
