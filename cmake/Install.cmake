@@ -1,4 +1,4 @@
-# What `cmake --install` puts where: the core library with its headers and a package for find_package(tessera).
+# What `cmake --install` puts where: the core library and subdivision surfaces, with their headers and a package for find_package(tessera).
 # The program has its own rule, in its folder. File formats, tests and benchmarks stay in the build folder.
 include(CMakePackageConfigHelpers)
 
@@ -6,6 +6,11 @@ set(TESSERA_CMAKE_FOLDER ${CMAKE_INSTALL_LIBDIR}/cmake/tessera)
 set(TESSERA_PACKAGE_FOLDER ${PROJECT_BINARY_DIR}/package)
 
 install(TARGETS tessera EXPORT tesseraTargets)
+if(TARGET tessera_subdivision)
+    set_target_properties(tessera_subdivision PROPERTIES EXPORT_NAME subdivision)
+    set_target_properties(tessera_opensubdiv PROPERTIES EXPORT_NAME opensubdiv)
+    install(TARGETS tessera_subdivision tessera_opensubdiv EXPORT tesseraTargets)
+endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/tessera TYPE INCLUDE)
 install(EXPORT tesseraTargets NAMESPACE tessera:: DESTINATION ${TESSERA_CMAKE_FOLDER})
 

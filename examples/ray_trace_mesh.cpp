@@ -6,6 +6,7 @@
 // The device's buffers are mapped and given to Embree as they are: where device and host share memory, nothing is copied.
 #include <tessera/error.h>
 #include <tessera/scene.h>
+#include <tessera/subdivision.h>
 #include <tessera/tessellator.h>
 
 #include <embree3/rtcore.h>
@@ -169,7 +170,8 @@ void writePicture(const std::string& path, const std::vector<char>& pixels, int 
 }
 
 void traceScene(const Arguments& arguments) {
-    const tessera::Scene scene = tessera::builtinScene(arguments.scene);
+    tessera::Scene scene = tessera::builtinScene(arguments.scene);
+    tessera::subdivide(scene);
     tessera::TessellateOptions options;
     options.pixelError = arguments.error;
     tessera::Camera camera = scene.cameras.front();

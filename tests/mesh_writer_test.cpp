@@ -4,6 +4,7 @@
 #include "closed_models.h"
 #include "mesh/pattern.h"
 #include "output_folder.h"
+#include "tessera/texture.h"
 #include "tessera/weld.h"
 #include "written_mesh.h"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <set>
 #include <string>
 #include <vector>
@@ -28,11 +30,17 @@ Positions positionsOf(const std::vector<Face>& faces) {
 }
 
 // A closed solid of three objects of several kinds, with records, of one place; two patches of it in parts; names that are no words. Its
-// patches lie any way round, so that neighbours may turn against each other.
-HostMesh solid(bool positionsOnly = false) {
+// patches lie any way round, so that neighbours may turn against each other. `textured`: all but the first mesh have texture nets.
+HostMesh solid(bool positionsOnly = false, bool textured = false) {
     const std::vector<PatchKind> kinds{PatchKind::bezier, PatchKind::pn, PatchKind::rational};
     Scene scene = placedAnyhow(mixedSolid(3, 2, kinds), 5);
     static_cast<void>(weld(scene, 1e-5));
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> coordinate(-2.0F, 3.0F);
+    for (std::size_t m = 1; m < scene.meshes.size() && textured; ++m) {
+        Mesh& mesh = scene.meshes[m];
+        for (std::size_t k = 0; k < 16 * mesh.patchCount(); ++k) mesh.textureNets.emplace_back(coordinate(random), coordinate(random));
+    }
     scene.objects[0].name = "first \"part\"\\\n\xC3\xA4";
     scene.objects[1].name = "";
     HostMesh mesh(scene, 5.0, 4, positionsOnly);
@@ -216,6 +224,31 @@ TEST_F(MeshFiles, ObjectsOutsideTheViewHaveANodeAndNoMesh) {
     mesh.finish();
     EXPECT_TRUE(readGlb(write(mesh, "a.glb", {})).faces == facesOf(mesh, false, true, true));
     EXPECT_TRUE(readPly(write(mesh, "a.ply", {})).faces == facesOf(mesh, false, true, true));
+}
+
+TEST_F(MeshFiles, TextureNetsGiveTheCoordinates) {
+    const HostMesh mesh = solid(false, true);
+    for (const bool weld : {true, false}) {
+        for (const std::string name : {"a.ply", "a.obj", "a.glb"}) {
+            std::vector<Face> expected = facesOf(mesh, false, true, true);
+            std::size_t changed = 0;
+            for (Face& face : expected) {
+                const Mesh& own = *mesh.scene().findMesh(mesh.scene().objects[face.object].mesh);
+                if (own.textureNets.empty()) continue;
+                ++changed;
+                for (Corner& corner : face.corners) {
+                    const glm::vec2 texture = textureAt(own, face.patch, corner.uv[0], corner.uv[1]);
+                    // Pictures of this format begin at their upper left.
+                    corner.uv = {texture.x, name == "a.glb" ? 1.0F - texture.y : texture.y};
+                }
+            }
+            EXPECT_GT(changed, 100U);
+            EXPECT_LT(changed, expected.size());
+            const std::filesystem::path path = write(mesh, name, {.weld = weld});
+            const WrittenMesh read = name == "a.ply" ? readPly(path) : name == "a.obj" ? readObj(path) : readGlb(path);
+            EXPECT_TRUE(sorted(read.faces) == sorted(expected)) << name;
+        }
+    }
 }
 
 TEST_F(MeshFiles, AMeshOfNothingIsAFileOfNothing) {

@@ -20,6 +20,11 @@ inline glm::dvec3 seenBy(const Camera& camera, const glm::dvec3& point) {
 inline std::vector<glm::dvec3> placedPoints(const Scene& scene) {
     std::vector<glm::dvec3> points;
     for (const Object& object : scene.objects) {
+        for (const Cage& cage : scene.cages) {
+            if (cage.name != object.mesh) continue;
+            for (const glm::vec3& point : cage.points) points.emplace_back(matrix(object.transform) * glm::dvec4(glm::dvec3(point), 1.0));
+        }
+        if (scene.findMesh(object.mesh) == nullptr) continue;
         const Mesh& mesh = *scene.findMesh(object.mesh);
         for (std::size_t i = 0; i < mesh.points.size(); ++i) {
             if (i % pointsPerPatch(mesh.kind) >= positionsPerPatch(mesh.kind)) continue;  // a normal

@@ -8,11 +8,11 @@ set -euo pipefail
 wanted=(
     cmake ninja-build g++ pkgconf
     ocl-icd-opencl-dev opencl-clhpp-headers pocl-opencl-icd libglm-dev
-    capnproto libcapnp-dev libopenimageio-dev libassimp-dev libdraco-dev zlib1g-dev libcli11-dev nlohmann-json3-dev
+    capnproto libcapnp-dev libopenimageio-dev libassimp-dev libdraco-dev libosd-dev zlib1g-dev libcli11-dev nlohmann-json3-dev
 )
 case "${1-}" in
     "") ;;
-    --with-bench) wanted+=(libbenchmark-dev python3-matplotlib libosd-dev
+    --with-bench) wanted+=(libbenchmark-dev python3-matplotlib
         # A header that the modeling packages include is in the visualization one.
         libocct-foundation-dev libocct-modeling-data-dev libocct-modeling-algorithms-dev libocct-visualization-dev) ;;
     --with-tests) wanted+=(libgtest-dev libbenchmark-dev libembree-dev clang libclang-rt-dev llvm clang-format clang-tidy) ;;

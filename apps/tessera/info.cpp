@@ -8,6 +8,7 @@
 #include "render_arguments.h"
 #include "shared_options.h"
 #include "show_plan.h"
+#include "subdivision_json.h"
 #include "tessera/scene.h"
 
 #include <algorithm>
@@ -95,6 +96,7 @@ Json sceneJson(const LoadedScene& loaded) {
     for (const auto& [kind, count] : placedPatches(scene)) json["patch_types"][kind] = count;
     json["bounds"] = bounds.empty() ? Json() : Json{{"lower", jsonOf(bounds.lower)}, {"upper", jsonOf(bounds.upper)}};
     json["edges"] = edgesJson(loaded.weld);
+    json["subdivision"] = subdivisionJson(loaded.cages);
     for (const auto* list : {"cameras", "lights", "objects", "meshes"}) json[list] = Json::array();
     for (const Camera& camera : scene.cameras) {
         json["cameras"].push_back({{"name", camera.name},
@@ -169,6 +171,7 @@ std::string infoText(const LoadedScene& loaded) {
     const Bounds bounds = worldBounds(scene);
     text += "\nbounds  " + (bounds.empty() ? std::string("empty") : textOf(bounds.lower) + " to " + textOf(bounds.upper)) + "\n";
     text += edgesText(loaded.weld);
+    for (const CageReport& report : loaded.cages) text += subdivisionText(report);
     for (const Camera& camera : scene.cameras) text += cameraText(camera);
     if (scene.cameras.empty()) text += "camera  none: a picture frames the whole scene\n";
     for (const Light& light : scene.lights) text += lightText(light);
@@ -230,7 +233,8 @@ void addPlanOptions(CLI::App& app, InfoArguments& arguments) {
 }  // namespace
 
 Command addInfoCommand(CLI::App& app) {
-    CLI::App* command = app.add_subcommand("info", "Tell what a scene holds, how its patches' edges meet, and what memory it takes");
+    CLI::App* command = app.add_subcommand(
+        "info", "Tell what a scene holds, how its patches' edges meet, what its cages became,\nand what memory it takes");
     command->get_formatter()->column_width(34);
     const auto arguments = std::make_shared<InfoArguments>();
     addSceneArguments(*command, arguments->render.scene, "Options");

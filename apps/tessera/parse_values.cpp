@@ -34,6 +34,8 @@ constexpr std::array<NamedAov, 8> kAovs{{
 
 constexpr std::array kMethods{SplitMethod::cpu, SplitMethod::breadth, SplitMethod::bounded, SplitMethod::local};
 constexpr std::array kModes{DiceMode::watertight, DiceMode::classical};
+constexpr std::array kSchemes{SubdivisionScheme::catmullClark, SubdivisionScheme::loop, SubdivisionScheme::bilinear,
+                              SubdivisionScheme::none};
 
 std::string inQuotes(std::string_view text) { return "'" + std::string(text) + "'"; }
 
@@ -144,6 +146,8 @@ std::vector<float> parseNumbers(std::string_view text, std::size_t least, std::s
 SplitMethod parseMethod(std::string_view text) { return parseNamed(text, "method", kMethods); }
 
 DiceMode parseMode(std::string_view text) { return parseNamed(text, "mode", kModes); }
+
+SubdivisionScheme parseScheme(std::string_view text) { return parseNamed(text, "scheme", kSchemes); }
 
 Aov parseAovs(std::string_view text) {
     Aov aovs = Aov::none;

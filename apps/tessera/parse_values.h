@@ -1,6 +1,7 @@
 // Values of the command line that are more than a single number or name. All throw Error, without the option's name.
 #pragma once
 
+#include "tessera/cage.h"
 #include "tessera/options.h"
 
 #include <cstddef>
@@ -46,6 +47,9 @@ constexpr int kSmallestBucketSide = 8;
 
 // "watertight" or "classical".
 [[nodiscard]] DiceMode parseMode(std::string_view text);
+
+// "catmull-clark", "loop", "bilinear" or "none".
+[[nodiscard]] SubdivisionScheme parseScheme(std::string_view text);
 
 // Names with commas between: "Z,N", "all". Errors list the names that are known.
 [[nodiscard]] Aov parseAovs(std::string_view text);

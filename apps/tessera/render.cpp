@@ -89,12 +89,12 @@ std::string summary(const Rendering& rendering, const RenderArguments& arguments
     return text + ", wrote " + arguments.output;
 }
 
-void writeOutputs(const Rendering& rendering, const Scene& scene, const Camera& camera, const std::string& commandLine,
+void writeOutputs(const Rendering& rendering, const LoadedScene& loaded, const Camera& camera, const std::string& commandLine,
                   const RenderArguments& arguments) {
     const Statistics& statistics = rendering.frame.statistics;
     writeImage(arguments.output, rendering.frame, pictureMetadata(commandLine, camera, arguments));
-    if (!arguments.trace.empty()) writeText(arguments.trace, traceJson(statistics, scene.name));
-    writeStats(arguments.stats, statsJson(statistics, scene.name, camera.name, rendering.frameMs));
+    if (!arguments.trace.empty()) writeText(arguments.trace, traceJson(statistics, loaded.scene.name));
+    writeStats(arguments.stats, statsJson(statistics, loaded.scene.name, camera.name, rendering.frameMs, loaded.cages));
 }
 
 std::string nothingInSight(DiceMode mode) {
@@ -115,7 +115,7 @@ void render(RenderArguments arguments, const std::string& commandLine) {
     const Rendering rendering = renderFrames(renderer, chosen.camera, arguments);
     {
         const auto whole = interrupt.files();
-        writeOutputs(rendering, loaded.scene, chosen.camera, commandLine, arguments);
+        writeOutputs(rendering, loaded, chosen.camera, commandLine, arguments);
     }
     if (arguments.quiet) return;
     const Statistics& statistics = rendering.frame.statistics;

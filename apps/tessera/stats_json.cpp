@@ -3,6 +3,7 @@
 
 #include "console.h"
 #include "formats/output_file.h"
+#include "subdivision_json.h"
 #include "tessera/renderer.h"
 
 #include <cstddef>
@@ -11,7 +12,8 @@
 
 namespace tessera::program {
 
-std::string statsJson(const Statistics& statistics, const std::string& scene, const std::string& camera, std::span<const double> frameMs) {
+std::string statsJson(const Statistics& statistics, const std::string& scene, const std::string& camera, std::span<const double> frameMs,
+                      std::span<const CageReport> cages) {
     nlohmann::ordered_json json;
     json["version"] = std::string(versionString());
     json["scene"] = scene;
@@ -56,6 +58,7 @@ std::string statsJson(const Statistics& statistics, const std::string& scene, co
     json["device_bytes_peak"] = statistics.deviceBytesPeak;
     json["device_bytes"] = nlohmann::ordered_json::object();
     for (const auto& [purpose, bytes] : statistics.deviceBytes) json["device_bytes"][purpose] = bytes;
+    json["subdivision"] = subdivisionJson(cages);
     // Names come from files, whose bytes need not be UTF-8.
     return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }

@@ -7,6 +7,8 @@
 #include "shared_options.h"
 #include "tessera/error.h"
 
+#include <string_view>
+
 namespace tessera::program {
 
 namespace {
@@ -15,6 +17,18 @@ Orientation parseOrientation(const std::string& text) {
     if (text == "consistent") return Orientation::consistent;
     if (text == "given") return Orientation::asGiven;
     throw Error("'" + text + "' is none of consistent and given");
+}
+
+TessellateMethod parseTessellateMethod(const std::string& text) {
+    if (text == "patches") return TessellateMethod::patches;
+    if (text == "tables") return TessellateMethod::tables;
+    throw Error("'" + text + "' is none of patches and tables");
+}
+
+TableOrder parseSummation(const std::string& text) {
+    if (text == "ordered") return TableOrder::global;
+    if (text == "unordered") return TableOrder::unordered;
+    throw Error("'" + text + "' is none of ordered and unordered");
 }
 
 void addMeshOptions(CLI::App& app, TessellateArguments& arguments) {
@@ -33,7 +47,11 @@ void addMeshOptions(CLI::App& app, TessellateArguments& arguments) {
     app.add_flag("--quads", file.quads, "Cells of four corners as quads: .ply and .obj");
     app.add_flag("--positions-only", file.positionsOnly, "No normals, (u,v), object and patch ids");
     addParsed(
-        app, "--orientation", [&arguments](const std::string& text) { arguments.orientation = parseOrientation(text); },
+        app, "--orientation",
+        [&arguments](const std::string& text) {
+            arguments.orientation = parseOrientation(text);
+            arguments.methodOptions.emplace_back("--orientation", TessellateMethod::patches);
+        },
         "Which way triangles and normals turn: consistent (of patches that meet, the\nfewer are turned so that all agree) or given (as "
         "(u,v) run)")
         ->type_name("NAME")
@@ -45,6 +63,33 @@ void readSize(const std::string& text, TessellateOptions& options) {
     const Size size = parseSize(text);
     options.width = size.width;
     options.height = size.height;
+}
+
+void addMethodOptions(CLI::App& app, TessellateArguments& arguments) {
+    constexpr int kDeepest = 8;
+    addParsed(
+        app, "--method", [&arguments](const std::string& text) { arguments.method = parseTessellateMethod(text); },
+        "patches, or tables: of Catmull-Clark surfaces alone, each vertex by a table\nof coefficients, all cells of a face alike")
+        ->type_name("NAME")
+        ->default_str("patches");
+    addParsed(
+        app, "--level",
+        [&arguments](const std::string& text) {
+            arguments.level = static_cast<int>(parseWhole(text, 0, kDeepest));
+            arguments.methodOptions.emplace_back("--level", TessellateMethod::tables);
+        },
+        "Of tables, instead of --tolerance: every face gets 2^N cells along each\nside, 0 to 8")
+        ->type_name("N");
+    addParsed(
+        app, "--summation",
+        [&arguments](const std::string& text) {
+            arguments.order = parseSummation(text);
+            arguments.methodOptions.emplace_back("--summation", TessellateMethod::tables);
+        },
+        "Of tables: ordered, so that neighbours have the same bits along their edge,\nor unordered, faster")
+        ->type_name("NAME")
+        ->default_str("ordered");
+    groupRest(app, "Method");
 }
 
 void addDensityOptions(CLI::App& app, TessellateOptions& options) {
@@ -107,12 +152,38 @@ void addTessellateOptions(CLI::App& app, TessellateArguments& arguments) {
     app.set_help_flag();
     addSceneArguments(app, arguments.scene, "Scene");
     addMeshOptions(app, arguments);
+    addMethodOptions(app, arguments);
     addDensityOptions(app, arguments.options);
     addViewOptions(app, arguments);
     addDeviceOptions(app, arguments);
     addReportOptions(app, arguments);
     app.set_help_flag("-h,--help", "Print this help and exit")->group("Reports");
 }
+
+namespace {
+
+std::string_view name(TessellateMethod method) { return method == TessellateMethod::tables ? "tables" : "patches"; }
+
+// Options that the chosen method does not look at.
+void checkMethod(const TessellateArguments& arguments) {
+    const auto refuse = [&](const std::string& option, TessellateMethod wanted) {
+        throw UsageError(option + " is for --method " + std::string(name(wanted)) + ": leave it out, or choose that method");
+    };
+    for (const auto& [option, method] : arguments.methodOptions) {
+        if (method != arguments.method) refuse(option, method);
+    }
+    if (arguments.method != TessellateMethod::tables) return;
+    for (const char* const option : {"--weld-tolerance", "--subdivision-surface", "--subdivision-tolerance"}) {
+        if (isGiven(arguments.scene, option)) refuse(option, TessellateMethod::patches);
+    }
+    if (!arguments.options.cull) refuse("--no-cull", TessellateMethod::patches);
+    if (arguments.scene.flat) refuse("--flat", TessellateMethod::patches);
+    if (arguments.scene.subdivision.scheme.value_or(SubdivisionScheme::catmullClark) != SubdivisionScheme::catmullClark) {
+        throw UsageError("--method tables is for --subdivision-scheme catmull-clark alone: choose one of them otherwise");
+    }
+}
+
+}  // namespace
 
 void checkTessellateArguments(const TessellateArguments& arguments) {
     const TessellateOptions& options = arguments.options;
@@ -122,6 +193,10 @@ void checkTessellateArguments(const TessellateArguments& arguments) {
     if (sameFile(arguments.stats, arguments.scene.scene)) throw UsageError("--stats names the scene's own file: give another");
     if (options.tolerance > 0.0 && options.pixelError > 0.0) {
         throw UsageError("--tolerance and --pixel-error both say how fine the mesh is: give one of them");
+    }
+    checkMethod(arguments);
+    if (arguments.level >= 0 && (options.tolerance > 0.0 || options.pixelError > 0.0)) {
+        throw UsageError("--level, --tolerance and --pixel-error all say how fine the mesh is: give one of them");
     }
     if (options.pixelError > 0.0 || arguments.viewOptions.empty()) return;
     throw UsageError(arguments.viewOptions.front() + " does nothing without --pixel-error: leave it out, or give --pixel-error");

@@ -46,7 +46,7 @@ int main(int argc, char** argv) {
             pattern.high_u = (1U << 24) - (1U << 24) / rate;
         }
         rig.set(reference::sceneOf({mesh}), std::vector<mesh_pattern>(patches, pattern));
-        const double vertices = static_cast<double>(rig.offsets().back().vertices);
+        const auto vertices = static_cast<double>(rig.offsets().back().vertices);
         std::vector<double> full, positions;
         for (int k = 0; k < rounds; ++k) full.push_back(rig.time(false));
         for (int k = 0; k < rounds; ++k) positions.push_back(rig.time(true));

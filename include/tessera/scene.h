@@ -13,6 +13,8 @@
 #include <string_view>
 #include <vector>
 
+#include "tessera/cage.h"
+
 namespace tessera {
 
 // A rigid motion: first the rotation, then the translation.
@@ -70,6 +72,9 @@ struct Mesh {
     std::vector<glm::vec3> points;    // pointsPerPatch(kind) points a patch
     std::vector<float> weights{};     // rational: one a point; else empty
     std::vector<EdgeRecord> edges{};  // made by weld() (tessera/weld.h); at most one a border, sorted by patch and side
+    // Texture coordinates: the 16 points of a bicubic Bezier net (point 4 v + u) a patch; empty: a patch's own (u, v) stand for them.
+    std::vector<glm::vec2> textureNets{};
+    bool welded = false;  // made with its edge records and shared points (subdivide()): weld() leaves it as it is
 
     [[nodiscard]] std::size_t patchCount() const { return points.size() / pointsPerPatch(kind); }
 };
@@ -89,7 +94,7 @@ struct Material {
 struct Object {
     std::string name;
     Transform transform;
-    std::string mesh;  // Mesh::name
+    std::string mesh;  // Mesh::name or Cage::name
     glm::vec3 color{1.0F};
     Material material;
 };
@@ -121,6 +126,7 @@ struct Camera {
 struct Scene {
     std::string name;  // file name or name of the built-in scene, for messages
     std::vector<Mesh> meshes;
+    std::vector<Cage> cages{};  // to be made meshes by subdivide(): a scene with any is not drawn
     std::vector<Light> lights;
     std::vector<Object> objects;
     std::vector<Camera> cameras;
@@ -146,7 +152,7 @@ struct Bounds {
     [[nodiscard]] bool empty() const { return lower.x > upper.x; }
 };
 
-// The box of all control points of all objects, which holds the surfaces (convex hull).
+// The box of all control points of all objects, cages' included, which holds the surfaces (convex hull).
 [[nodiscard]] Bounds worldBounds(const Scene& scene);
 
 // A camera at `eye` that looks at `target`, y up (z up where the view is vertical). Throws Error when the two coincide

@@ -46,7 +46,7 @@ struct MeshVertex {
     float position[3];     // world
     float normal[3];       // world, of unit length, along du x dv (a PN triangle's own quadratic normal), against it in a turned patch; 0
                            // where the surface has none
-    float u, v;            // of the patch
+    float u, v;            // of the patch, whatever the mesh; textureAt() (tessera/texture.h) makes texture coordinates of them
     std::uint32_t object;  // index into Scene::objects
     std::uint32_t patch;   // index into the object's mesh
 };

@@ -30,6 +30,7 @@ struct WeldReport {
 // bit, and makes records; it may make -0 a +0. Weights match within 1e-5 of each other, up to a common factor.
 // A border whose neighbours are finer may be matched in part: it then has a record, and counts as boundary. But every patch with a corner
 // strictly inside it is a user of the record, or there is none.
+// Meshes that are `welded` already are left as they are, and others are not matched with them.
 // Time and memory grow with the number of patches, however they lie. Requires a validated scene; throws Error, naming the scene, on a
 // tolerance outside [0, 0.1].
 WeldReport weld(Scene& scene, double tolerance = 1e-5);

@@ -29,6 +29,11 @@ const KernelFiles& meshKernelFiles() {
     return files;
 }
 
+const KernelFiles& tableKernelFiles() {
+    static const KernelFiles files = {"tables/points.cl", "tables/levels.cl", "tables/vertices.cl", "mesh/offsets.cl", "mesh/indices.cl"};
+    return files;
+}
+
 Kernels::Kernels(const OpenDevice& device, const KernelSources& sources, const std::filesystem::path& cacheFolder,
                  const KernelFiles& files) {
     const auto start = std::chrono::steady_clock::now();

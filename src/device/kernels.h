@@ -15,6 +15,7 @@ namespace tessera {
 using KernelFiles = std::vector<std::string>;
 [[nodiscard]] const KernelFiles& renderKernelFiles();  // of a Renderer
 [[nodiscard]] const KernelFiles& meshKernelFiles();    // of a Tessellator
+[[nodiscard]] const KernelFiles& tableKernelFiles();   // of a TableTessellator
 
 class Kernels {
 public:

@@ -70,7 +70,12 @@ MeshFolder::MeshFolder(const std::filesystem::path& path) : fileName_(path.strin
 }
 
 MeshFolder::MeshFolder(std::string fileName, std::span<const std::byte> bytes)
-    : fileName_(std::move(fileName)), inMemory_(true), bytes_(bytes) {}
+    : fileName_(std::move(fileName)), inMemory_(true), replaced_(true), bytes_(bytes) {}
+
+void MeshFolder::replaceFile(std::span<const std::byte> bytes) {
+    bytes_ = bytes;
+    replaced_ = true;
+}
 
 std::unique_ptr<Assimp::IOSystem> MeshFolder::makeAccess() { return std::make_unique<MeshAccess>(*this); }
 
@@ -94,7 +99,7 @@ std::unique_ptr<Assimp::IOStream> MeshFolder::open(const char* file) {
         return nullptr;
     }
     std::unique_ptr<Assimp::IOStream> stream;
-    if (inMemory_) {
+    if (replaced_ && file == fileName_) {
         stream = std::make_unique<Assimp::MemoryIOStream>(reinterpret_cast<const std::uint8_t*>(bytes_.data()), bytes_.size());
     } else {
         stream.reset(disk_.Open(file, "rb"));

@@ -26,6 +26,9 @@ public:
     // A file that is only in memory, alone in the world.
     MeshFolder(std::string fileName, std::span<const std::byte> bytes);
 
+    // What is read as the file itself from now on, instead of what is on the disk. Streams and this folder refer to it.
+    void replaceFile(std::span<const std::byte> bytes);
+
     // For Assimp::Importer::SetIOHandler, which takes it over. Refers to this folder.
     [[nodiscard]] std::unique_ptr<Assimp::IOSystem> makeAccess();
 
@@ -37,7 +40,8 @@ public:
 
 private:
     std::string fileName_;
-    bool inMemory_ = false;
+    bool inMemory_ = false;  // and no other file is there
+    bool replaced_ = false;  // the file itself is in memory
     std::span<const std::byte> bytes_;
     std::filesystem::path file_;
     std::vector<std::filesystem::path> folders_;

@@ -1,11 +1,14 @@
-// Reads triangle meshes with Assimp, which is trusted in little: it reads no files but those near by, its exceptions and messages become
+// Reads polygon meshes, with Assimp, which is trusted in little: it reads no files but those near by, its exceptions and messages become
 // an Error of one line, and what it hands over is checked before it is used.
 #include "formats/mesh_file.h"
 
+#include "formats/gltf_subdivision.h"
 #include "formats/mesh_access.h"
 #include "formats/mesh_notes.h"
 #include "formats/mesh_ply.h"
 #include "formats/mesh_scene.h"
+#include "formats/obj_cage.h"
+#include "formats/obj_file.h"
 #include "formats/trial_run.h"
 #include "scene/text.h"
 #include "tessera/error.h"
@@ -102,32 +105,104 @@ void tryReading(MeshFolder& folder, std::uintmax_t fileBytes, const MeshNotes& n
     }
 }
 
-Scene import(MeshFolder& folder, bool flat, const MeshNotes& notes) {
+Scene import(MeshFolder& folder, const MeshReading& reading, const MeshNotes& notes) {
     checkHead(folder, notes);
     Assimp::Importer importer;
     setUp(importer, folder);
     const aiScene* source = &sceneOf(importer, notes, [&] { return importer.ReadFile(notes.file(), 0); });
-    if (checkMeshScene(*source, notes) == MeshFaces::polygons) {
+    // Cages beside triangles are rare and keep their polygons in glTF, which has no others.
+    if (checkMeshScene(*source, notes) == MeshFaces::polygons && !reading.cages) {
         source = &sceneOf(importer, notes, [&] { return importer.ApplyPostProcessing(aiProcess_Triangulate); });
     }
-    Scene scene = makeMeshScene(*source, flat, notes);
-    for (const std::string& refused : folder.refused()) {
-        notes.warn("names the file " + quotedName(refused) + ", which is not in its folder: it is not read");
-    }
-    scene.validate();
-    return scene;
+    return makeMeshScene(*source, reading, notes);
 }
 
-Scene importCaught(MeshFolder& folder, bool flat, const MeshNotes& notes) {
-    try {
-        return import(folder, flat, notes);
-    } catch (const Error&) {
-        throw;
-    } catch (const std::bad_alloc&) {
-        notes.fail("there is not enough memory to read it; split it into smaller files");
-    } catch (const std::exception& exception) {
-        notes.fail("cannot be read as a mesh: " + oneLine(exception.what()) + "; repair it, or convert it to OBJ, PLY or glTF");
+std::string endingOf(const MeshNotes& notes) { return lowerCase(std::filesystem::path(notes.file()).extension().string()); }
+
+// All of the file.
+std::string readWhole(MeshFolder& folder, const MeshNotes& notes) {
+    const std::unique_ptr<Assimp::IOStream> stream = folder.open(notes.file().c_str());
+    if (stream == nullptr) notes.fail("cannot be opened; check its permissions");
+    std::string text(stream->FileSize(), '\0');
+    if (!text.empty() && stream->Read(text.data(), 1, text.size()) != text.size()) notes.fail("cannot be read to its end; check the disk");
+    return text;
+}
+
+// What reads a file, and what it is asked for.
+class FileReader {
+public:
+    FileReader(MeshFolder& folder, const MeshNotes& notes, bool trial) : folder_(folder), notes_(notes), trial_(trial) {}
+
+    Scene triangles(bool flat) {
+        return caught([&] { return assimp({flat, false, std::nullopt, nullptr}); });
     }
+
+    Scene cages(std::optional<SubdivisionScheme> scheme) {
+        return caught([&] {
+            const std::string ending = endingOf(notes_);
+            if (ending == ".obj") return objCages(scheme);
+            if (ending == ".gltf" || ending == ".glb") return gltfCages(scheme);
+            return assimp({false, scheme.has_value(), scheme, nullptr});
+        });
+    }
+
+private:
+    Scene objCages(std::optional<SubdivisionScheme> scheme) {
+        const std::string text = readWhole(folder_, notes_);
+        if (!scheme.has_value() && !hasObjTags(text)) return assimp({});
+        return readObjCages(text, scheme.value_or(SubdivisionScheme::catmullClark), folder_, notes_);
+    }
+
+    Scene gltfCages(std::optional<SubdivisionScheme> scheme) {
+        const GltfSubdivision subdivision(readWhole(folder_, notes_), notes_);
+        if (subdivision.empty()) return assimp({false, scheme.has_value(), scheme, nullptr});
+        folder_.replaceFile(std::as_bytes(std::span(subdivision.numbered())));
+        return assimp({false, true, scheme, &subdivision});
+    }
+
+    Scene assimp(const MeshReading& reading) {
+        if (trial_) tryReading(folder_, std::filesystem::file_size(notes_.file()), notes_);
+        return import(folder_, reading, notes_);
+    }
+
+    // What both Assimp and memory may throw, and what is told and checked at the end.
+    template <typename Read>
+    Scene caught(Read read) {
+        try {
+            Scene scene = read();
+            for (const std::string& refused : folder_.refused()) {
+                notes_.warn("names the file " + quotedName(refused) + ", which is not in its folder: it is not read");
+            }
+            scene.validate();
+            return scene;
+        } catch (const Error&) {
+            throw;
+        } catch (const std::bad_alloc&) {
+            notes_.fail("there is not enough memory to read it; split it into smaller files");
+        } catch (const std::exception& exception) {
+            notes_.fail("cannot be read as a mesh: " + oneLine(exception.what()) + "; repair it, or convert it to OBJ, PLY or glTF");
+        }
+    }
+
+    MeshFolder& folder_;
+    const MeshNotes& notes_;
+    bool trial_;  // whether a process of its own tries Assimp first
+};
+
+template <typename Read>
+Scene readPath(const std::filesystem::path& path, std::vector<std::string>* warnings, Read read) {
+    const MeshNotes notes(path.string(), warnings);
+    checkFile(path, notes);
+    MeshFolder folder(path);
+    return read(FileReader(folder, notes, true));
+}
+
+template <typename Read>
+Scene readBytes(std::span<const std::byte> bytes, const std::string& fileName, std::vector<std::string>* warnings, Read read) {
+    const MeshNotes notes(fileName, warnings);
+    if (bytes.empty()) notes.fail("is empty; give a file with a mesh");
+    MeshFolder folder(fileName, bytes);
+    return read(FileReader(folder, notes, false));
 }
 
 }  // namespace
@@ -138,18 +213,20 @@ bool isMeshFile(const std::filesystem::path& path) {
 }
 
 Scene readMeshFile(const std::filesystem::path& path, bool flat, std::vector<std::string>* warnings) {
-    const MeshNotes notes(path.string(), warnings);
-    checkFile(path, notes);
-    MeshFolder folder(path);
-    tryReading(folder, std::filesystem::file_size(path), notes);
-    return importCaught(folder, flat, notes);
+    return readPath(path, warnings, [&](FileReader reader) { return reader.triangles(flat); });
 }
 
 Scene parseMeshFile(std::span<const std::byte> bytes, const std::string& fileName, bool flat, std::vector<std::string>* warnings) {
-    const MeshNotes notes(fileName, warnings);
-    if (bytes.empty()) notes.fail("is empty; give a file with a mesh");
-    MeshFolder folder(fileName, bytes);
-    return importCaught(folder, flat, notes);
+    return readBytes(bytes, fileName, warnings, [&](FileReader reader) { return reader.triangles(flat); });
+}
+
+Scene readCageFile(const std::filesystem::path& path, std::optional<SubdivisionScheme> scheme, std::vector<std::string>* warnings) {
+    return readPath(path, warnings, [&](FileReader reader) { return reader.cages(scheme); });
+}
+
+Scene parseCageFile(std::span<const std::byte> bytes, const std::string& fileName, std::optional<SubdivisionScheme> scheme,
+                    std::vector<std::string>* warnings) {
+    return readBytes(bytes, fileName, warnings, [&](FileReader reader) { return reader.cages(scheme); });
 }
 
 }  // namespace tessera

@@ -45,7 +45,8 @@ protected:
     void writeUnit(const MeshPiece& piece, const MeshUnit& unit) override {
         vertexWork_->read(piece, unit);
         const std::uint32_t object = outline().patches[unit.patch].object;
-        for (const MeshVertex& vertex : vertexWork_->fresh()) writeVertex(vertex, nodes_[object].mesh);
+        const bool textured = vertexWork_->textured(object);
+        for (const MeshVertex& vertex : vertexWork_->fresh()) writeVertex(vertex, textured, nodes_[object].mesh);
         const std::span<const std::uint64_t> numbers = vertexWork_->numbers();
         eachFace(piece, unit, [&](std::span<const std::uint32_t> corners) {
             BytePutter out(indexSection_->room(12));
@@ -106,7 +107,7 @@ private:
         }
     }
 
-    void writeVertex(const MeshVertex& vertex, GlbMesh& mesh) {
+    void writeVertex(const MeshVertex& vertex, bool textured, GlbMesh& mesh) {
         for (std::size_t c = 0; c < 3; ++c) {
             mesh.lower[c] = std::min(mesh.lower[c], vertex.position[c]);
             mesh.upper[c] = std::max(mesh.upper[c], vertex.position[c]);
@@ -117,7 +118,8 @@ private:
         const bool none = vertex.normal[0] == 0.0F && vertex.normal[1] == 0.0F && vertex.normal[2] == 0.0F;
         out.put(none ? std::array<float, 3>{0.0F, 0.0F, 1.0F} : std::array<float, 3>{vertex.normal[0], vertex.normal[1], vertex.normal[2]});
         out.put(vertex.u);
-        out.put(vertex.v);
+        // The format's pictures begin at their upper left corner.
+        out.put(textured ? 1.0F - vertex.v : vertex.v);
         out.put(static_cast<float>(vertex.patch));
     }
 

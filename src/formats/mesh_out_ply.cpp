@@ -41,7 +41,7 @@ protected:
             const auto count = static_cast<std::uint8_t>(corners.size());
             out.put(count);
             for (const std::uint32_t corner : corners) out.put(static_cast<std::uint32_t>(numbers[corner]));
-            if (attributes) putAttributes(out, piece.vertices.subspan(unit.firstVertex), corners);
+            if (attributes) putAttributes(out, vertexWork_->vertices(), corners);
         });
     }
 

@@ -1,6 +1,9 @@
 // Assimp's scene made Tessera's: meshes, nodes, colours.
 #include "formats/mesh_scene.h"
 
+#include "formats/cage_faces.h"
+#include "formats/gltf_subdivision.h"
+#include "formats/mesh_cage.h"
 #include "formats/mesh_lights.h"
 #include "scene/text.h"
 #include "tessera/error.h"
@@ -132,12 +135,13 @@ std::string describe(const TriangleRepairs& repairs, bool hadNormals) {
 
 class SceneMaker {
 public:
-    SceneMaker(const aiScene& source, bool flat, const MeshNotes& notes) : source_(source), flat_(flat), notes_(notes) {}
+    SceneMaker(const aiScene& source, const MeshReading& reading, const MeshNotes& notes)
+        : source_(source), reading_(reading), notes_(notes) {}
 
     Scene make() {
         scene_.name = notes_.file();
         if (source_.mRootNode != nullptr) placeNodes(*source_.mRootNode);
-        if (scene_.meshes.empty()) {
+        if (scene_.meshes.empty() && scene_.cages.empty()) {
             notes_.fail(firstFailure_.empty() ? "there is no triangle in it; give a file with a mesh that nodes place" : firstFailure_);
         }
         const NodePlace place = [&](const aiString& name) {
@@ -192,25 +196,64 @@ private:
         return found->second;
     }
 
+    // Its name in the file, and what the file says of its cage.
+    [[nodiscard]] GltfSubdivision::Primitive primitive(unsigned index) const {
+        const std::string_view name = text(source_.mMeshes[index]->mName);
+        return reading_.subdivision == nullptr ? GltfSubdivision::Primitive{std::string(name), nullptr} : reading_.subdivision->find(name);
+    }
+
+    void countCopies(std::size_t faces, const glm::dmat4& baked) {
+        if (baked == glm::dmat4(1.0)) return;
+        copiedTriangles_ += faces;
+        if (copiedTriangles_ <= kMostCopiedTriangles) return;
+        notes_.fail("scaled nodes make copies of more than " + std::to_string(kMostCopiedTriangles) +
+                    " triangles; apply the scales, or split the file");
+    }
+
     std::optional<std::string> makeMesh(unsigned index, const glm::dmat4& baked) {
+        const GltfSubdivision::Primitive primitive = this->primitive(index);
+        const bool isCage = reading_.cages && (reading_.scheme.has_value() || (primitive.cage != nullptr && primitive.cage->tagged));
+        return isCage ? makeCage(index, baked, primitive) : makeTriangles(index, baked, primitive.name);
+    }
+
+    std::optional<std::string> makeCage(unsigned index, const glm::dmat4& baked, const GltfSubdivision::Primitive& primitive) {
+        const aiMesh& source = *source_.mMeshes[index];
+        const std::string item = "mesh " + quotedName(primitive.name);
+        if (primitive.cage != nullptr && primitive.cage->tagged && primitive.cage->vertices != source.mNumVertices) {
+            notes_.fail(item + ": Assimp made " + std::to_string(source.mNumVertices) + " vertices of its " +
+                        std::to_string(primitive.cage->vertices) + ", so that their numbers are lost; use OBJ, or another Assimp");
+        }
+        Cage cage = primitive.cage == nullptr ? cageOf(source, {}, false) : cageOf(source, primitive.cage->tags, primitive.cage->ngons);
+        if (cage.faceSizes.empty()) {
+            leaveOut(index, "there is no polygon in it; give a mesh with faces");
+            return std::nullopt;
+        }
+        if (!cage.holes.empty() && primitive.cage->highestHole >= cage.faceCount()) {
+            notes_.fail(item + ": hole " + std::to_string(primitive.cage->highestHole) + " is none of its " +
+                        std::to_string(cage.faceCount()) + " faces; repair it");
+        }
+        if (reading_.scheme.has_value()) cage.scheme = *reading_.scheme;
+        cage.name = meshNames_.make(primitive.name);
+        countCopies(cage.faceCount(), baked);
+        if (baked != glm::dmat4(1.0)) bakeCage(baked, cage);
+        dropUnplacedFaces(cage, notes_);
+        scene_.cages.push_back(std::move(cage));
+        return scene_.cages.back().name;
+    }
+
+    std::optional<std::string> makeTriangles(unsigned index, const glm::dmat4& baked, const std::string& name) {
         const aiMesh& source = *source_.mMeshes[index];
         TriangleMesh triangles = triangleMesh(source);
         if (triangles.triangles.empty()) {
             leaveOut(index, "there is no triangle in it; give a mesh with faces");
             return std::nullopt;
         }
-        if (baked != glm::dmat4(1.0)) {
-            copiedTriangles_ += triangles.triangles.size();
-            if (copiedTriangles_ > kMostCopiedTriangles) {
-                notes_.fail("scaled nodes make copies of more than " + std::to_string(kMostCopiedTriangles) +
-                            " triangles; apply the scales, or split the file");
-            }
-            bake(baked, triangles);
-        }
-        triangles.name = text(source.mName);
+        countCopies(triangles.triangles.size(), baked);
+        if (baked != glm::dmat4(1.0)) bake(baked, triangles);
+        triangles.name = name;
         TriangleRepairs repairs;
         try {
-            Mesh mesh = pnMesh(triangles, flat_, &repairs);
+            Mesh mesh = pnMesh(triangles, reading_.flat, &repairs);
             mesh.name = meshNames_.make(triangles.name);
             if (const std::string said = describe(repairs, !triangles.normals.empty()); !said.empty())
                 notes_.warn("mesh " + quotedName(mesh.name) + ": " + said);
@@ -222,9 +265,7 @@ private:
         return scene_.meshes.back().name;
     }
 
-    void leaveOut(unsigned index, const std::string& why) {
-        leaveOut("mesh " + quotedName(text(source_.mMeshes[index]->mName)) + ": " + why);
-    }
+    void leaveOut(unsigned index, const std::string& why) { leaveOut("mesh " + quotedName(primitive(index).name) + ": " + why); }
 
     void leaveOut(const std::string& why) {
         notes_.warn(why + " (left out)");
@@ -232,7 +273,7 @@ private:
     }
 
     const aiScene& source_;
-    bool flat_;
+    MeshReading reading_;
     const MeshNotes& notes_;
     Scene scene_;
     std::map<MeshKey, std::optional<std::string>> made_;
@@ -286,6 +327,8 @@ MeshFaces checkMeshScene(const aiScene& source, const MeshNotes& notes) {
     return most > 3 ? MeshFaces::polygons : MeshFaces::triangles;
 }
 
-Scene makeMeshScene(const aiScene& source, bool flat, const MeshNotes& notes) { return SceneMaker(source, flat, notes).make(); }
+Scene makeMeshScene(const aiScene& source, const MeshReading& reading, const MeshNotes& notes) {
+    return SceneMaker(source, reading, notes).make();
+}
 
 }  // namespace tessera

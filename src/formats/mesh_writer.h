@@ -7,6 +7,8 @@
 //     .glb  a node and a mesh an object (no mesh where it has no triangles), POSITION, NORMAL, TEXCOORD_0 and _PATCH_ID. Its vertices have
 //           one normal each, so patches keep theirs apart (seams) but for `positionsOnly`, where an object's are welded. A normal of 0,
 //           where the surface has none, is written as (0, 0, 1), for the format takes unit vectors alone.
+// (u, v) are a patch's own, or where its mesh has texture coordinates these (tessera/texture.h); of GLB these with 1 - v, for its pictures
+// begin at the upper left.
 #pragma once
 
 #include <cstdint>

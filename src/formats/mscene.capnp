@@ -80,9 +80,50 @@ struct Mesh {
   weights @3 :List(Float32);    # rational: one a control point, above 0; else left out
 }
 
+# Tessera's own: the control cage of a subdivision surface. Objects name cages as they name meshes.
+struct Cage {
+  enum Scheme {
+    catmullClark @0;
+    loop @1;
+    bilinear @2;
+    none @3;  # polygons with smooth normals
+  }
+
+  # What happens along edges of a single face (RenderMan's interpolateboundary).
+  enum Boundary {
+    none @0;
+    edgeAndCorner @1;
+    edgeOnly @2;
+  }
+
+  struct Crease {
+    a @0 :UInt32;  # vertices, in either order
+    b @1 :UInt32;
+    sharpness @2 :Float32;  # 0 and above; 10 and above: for ever
+  }
+
+  struct Corner {
+    vertex @0 :UInt32;
+    sharpness @1 :Float32;
+  }
+
+  name @0 :Text;
+  scheme @1 :Scheme;
+  boundary @2 :Boundary = edgeAndCorner;
+  positions @3 :List(Float32);             # xyz a vertex
+  faceSizes @4 :List(UInt32);              # corners of each face
+  faceVertices @5 :List(UInt32);           # face after face, counter-clockwise seen from outside
+  creases @6 :List(Crease);
+  corners @7 :List(Corner);
+  holes @8 :List(UInt32);                  # faces that shape the surface but are not drawn
+  texturePositions @9 :List(Float32);      # uv a texture point
+  faceTexturePoints @10 :List(UInt32);     # as many as faceVertices; left out where there are no texture points
+}
+
 struct Scene {
   meshes @0 :List(Mesh);
   lights @1 :List(LightSource);
   objects @2 :List(Object);
   cameras @3 :List(Camera);
+  cages @4 :List(Cage);
 }

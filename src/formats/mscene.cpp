@@ -2,6 +2,8 @@
 // failure is an Error that names file and item.
 #include "formats/mscene.h"
 
+#include "formats/mscene_cage.h"
+#include "formats/mscene_reading.h"
 #include "scene/text.h"
 #include "tessera/error.h"
 
@@ -32,60 +34,11 @@ constexpr std::uint64_t kLargestFile = std::uint64_t{1} << 30U;
 constexpr std::uint64_t kUnpackedPerByte = 8;
 constexpr std::uint64_t kUnpackedAllowance = 1U << 20U;
 
-constexpr std::size_t kMostWarnings = 50;
-
-// One file being read: what messages begin with, and where its oddities are told.
-class Reading {
-public:
-    Reading(std::string file, std::size_t fileBytes, std::vector<std::string>* warnings)
-        : file_(std::move(file)), fileBytes_(fileBytes), warnings_(warnings), warned_(warnings == nullptr ? 0 : warnings->size()) {}
-
-    [[nodiscard]] const std::string& file() const { return file_; }
-    [[nodiscard]] std::size_t fileBytes() const { return fileBytes_; }
-
-    [[noreturn]] void fail(const std::string& what) const { throw Error(file_ + ": " + what); }
-
-    void warn(const std::string& what) const {
-        if (warnings_ == nullptr || warnings_->size() > warned_ + kMostWarnings) return;
-        const bool last = warnings_->size() == warned_ + kMostWarnings;
-        warnings_->push_back(file_ + ": " + (last ? std::string("further oddities are not listed") : what));
-    }
-
-private:
-    std::string file_;
-    std::size_t fileBytes_;
-    std::vector<std::string>* warnings_;
-    std::size_t warned_;  // lines that were there before
-};
-
-// Cap'n Proto's own words for what is wrong, as one line, without the condition of its code that failed before
-// them and the advice to programmers behind.
-std::string describe(const kj::Exception& exception) {
-    const kj::StringPtr description = exception.getDescription();
-    std::string text(description.begin(), description.size());
-    std::replace_if(
-        text.begin(), text.end(), [](char c) { return static_cast<unsigned char>(c) < 0x20; }, ' ');
-    if (const std::size_t condition = text.rfind("; "); condition != std::string::npos) text.erase(0, condition + 2);
-    return text.substr(0, text.find(". "));
-}
-
-constexpr std::string_view kDamaged = "; the file is damaged, or no packed Cap'n Proto scene";
-
-std::string itemText(std::string_view kind, std::size_t index) { return std::string(kind) + " number " + std::to_string(index); }
-
-std::string readName(const Reading& reading, capnp::Text::Reader text, const std::string& item) {
-    std::string result(text.begin(), text.size());
-    if (!isUtf8(result) || result.find('\0') != std::string::npos) {
-        reading.fail(item + ": name " + quotedName(result) + " is no UTF-8 text; rename it");
-    }
-    return result;
-}
-
 glm::vec3 readVec3(schema::Vec3::Reader vector) { return {vector.getX(), vector.getY(), vector.getZ()}; }
 
 // Item is any of the schema's structs with a transform.
 template <typename Item>
-Transform readTransform(const Reading& reading, Item source, const std::string& item) {
+Transform readTransform(const MsceneReading& reading, Item source, const std::string& item) {
     Transform transform;
     const schema::Transform::Reader stored = source.getTransform();
     if (stored.hasTranslation()) transform.translation = readVec3(stored.getTranslation());
@@ -100,13 +53,13 @@ Transform readTransform(const Reading& reading, Item source, const std::string& 
 }
 
 template <typename Item>
-glm::vec3 readColor(const Reading& reading, Item source, const std::string& item) {
+glm::vec3 readColor(const MsceneReading& reading, Item source, const std::string& item) {
     if (source.hasColor()) return readVec3(source.getColor());
     reading.warn(item + " has no colour: white is taken");
     return glm::vec3(1.0F);
 }
 
-PatchKind readKind(const Reading& reading, schema::Mesh::Reader source, const std::string& item) {
+PatchKind readKind(const MsceneReading& reading, schema::Mesh::Reader source, const std::string& item) {
     switch (source.getType()) {
         case schema::Mesh::Type::BEZIER:
             return PatchKind::bezier;
@@ -121,7 +74,7 @@ PatchKind readKind(const Reading& reading, schema::Mesh::Reader source, const st
     reading.fail(item + ": unknown type " + std::to_string(static_cast<int>(source.getType())) + "; use bezier, gregory, rational or pn");
 }
 
-std::vector<glm::vec3> readPoints(const Reading& reading, schema::Mesh::Reader source, PatchKind kind, const std::string& item) {
+std::vector<glm::vec3> readPoints(const MsceneReading& reading, schema::Mesh::Reader source, PatchKind kind, const std::string& item) {
     // Fetched once: each fetch counts against the message's traversal limit.
     const capnp::List<float>::Reader positions = source.getPositions();
     const std::uint32_t perPatch = static_cast<std::uint32_t>(pointsPerPatch(kind)) * 3;
@@ -137,7 +90,7 @@ std::vector<glm::vec3> readPoints(const Reading& reading, schema::Mesh::Reader s
 }
 
 // Only their number is judged here: their values are a matter of Scene::validate().
-std::vector<float> readWeights(const Reading& reading, schema::Mesh::Reader source, const Mesh& mesh, const std::string& item) {
+std::vector<float> readWeights(const MsceneReading& reading, schema::Mesh::Reader source, const Mesh& mesh, const std::string& item) {
     const capnp::List<float>::Reader stored = source.getWeights();
     if (mesh.kind != PatchKind::rational) {
         if (stored.size() == 0) return {};
@@ -154,7 +107,7 @@ std::vector<float> readWeights(const Reading& reading, schema::Mesh::Reader sour
     return weights;
 }
 
-Mesh readMesh(const Reading& reading, schema::Mesh::Reader source, std::size_t index) {
+Mesh readMesh(const MsceneReading& reading, schema::Mesh::Reader source, std::size_t index) {
     Mesh mesh;
     mesh.name = readName(reading, source.getName(), itemText("mesh", index));
     const std::string item = "mesh " + quotedName(mesh.name);
@@ -164,7 +117,7 @@ Mesh readMesh(const Reading& reading, schema::Mesh::Reader source, std::size_t i
     return mesh;
 }
 
-Light readLight(const Reading& reading, schema::LightSource::Reader source, std::size_t index) {
+Light readLight(const MsceneReading& reading, schema::LightSource::Reader source, std::size_t index) {
     Light light;
     light.name = readName(reading, source.getName(), itemText("light", index));
     const std::string item = "light " + quotedName(light.name);
@@ -188,7 +141,7 @@ Light readLight(const Reading& reading, schema::LightSource::Reader source, std:
     return light;
 }
 
-Material readMaterial(const Reading& reading, schema::Material::Reader source, const std::string& item) {
+Material readMaterial(const MsceneReading& reading, schema::Material::Reader source, const std::string& item) {
     Material material;
     switch (source.getKind()) {
         case schema::Material::Kind::MATTE:
@@ -205,7 +158,7 @@ Material readMaterial(const Reading& reading, schema::Material::Reader source, c
     return material;
 }
 
-Object readObject(const Reading& reading, schema::Object::Reader source, std::size_t index) {
+Object readObject(const MsceneReading& reading, schema::Object::Reader source, std::size_t index) {
     Object object;
     object.name = readName(reading, source.getName(), itemText("object", index));
     const std::string item = "object " + quotedName(object.name);
@@ -216,7 +169,7 @@ Object readObject(const Reading& reading, schema::Object::Reader source, std::si
     return object;
 }
 
-Camera readCamera(const Reading& reading, schema::Camera::Reader source, std::size_t index) {
+Camera readCamera(const MsceneReading& reading, schema::Camera::Reader source, std::size_t index) {
     Camera camera;
     camera.name = readName(reading, source.getName(), itemText("camera", index));
     camera.transform = readTransform(reading, source, "camera " + quotedName(camera.name));
@@ -226,37 +179,18 @@ Camera readCamera(const Reading& reading, schema::Camera::Reader source, std::si
     return camera;
 }
 
-// `items` through `readItem`, with the item's number in what Cap'n Proto has to say.
-template <typename Item, typename List, typename ReadItem>
-std::vector<Item> readList(const Reading& reading, std::string_view kind, List items, ReadItem readItem) {
-    // Each item takes some bytes for its pointers. Without this a list of empty items would cost many times the file.
-    if (items.size() > reading.fileBytes() / 4) {
-        reading.fail(std::to_string(items.size()) + " items in the list of kind " + std::string(kind) + " are more than the file can hold" +
-                     std::string(kDamaged));
-    }
-    std::vector<Item> result;
-    result.reserve(items.size());
-    for (std::uint32_t i = 0; i < items.size(); ++i) {
-        try {
-            result.push_back(readItem(reading, items[i], i));
-        } catch (const kj::Exception& exception) {
-            reading.fail(itemText(kind, i) + ": " + describe(exception) + std::string(kDamaged));
-        }
-    }
-    return result;
-}
-
-Scene readScene(const Reading& reading, schema::Scene::Reader source) {
+Scene readScene(const MsceneReading& reading, schema::Scene::Reader source) {
     Scene scene;
     scene.name = reading.file();
     scene.meshes = readList<Mesh>(reading, "mesh", source.getMeshes(), readMesh);
     scene.lights = readList<Light>(reading, "light", source.getLights(), readLight);
     scene.objects = readList<Object>(reading, "object", source.getObjects(), readObject);
     scene.cameras = readList<Camera>(reading, "camera", source.getCameras(), readCamera);
+    scene.cages = readList<Cage>(reading, "cage", source.getCages(), readCage);
     return scene;
 }
 
-void warnOfOddities(const Reading& reading, const Scene& scene) {
+void warnOfOddities(const MsceneReading& reading, const Scene& scene) {
     if (scene.objects.empty()) reading.warn("the scene has no objects: there is nothing to see");
     std::unordered_set<std::string_view> names;
     for (const Camera& camera : scene.cameras) {
@@ -283,7 +217,7 @@ std::uint64_t unpackedSize(kj::ArrayPtr<const kj::byte> bytes) {
     return words * sizeof(capnp::word);
 }
 
-void refuseBombs(const Reading& reading, kj::ArrayPtr<const kj::byte> bytes) {
+void refuseBombs(const MsceneReading& reading, kj::ArrayPtr<const kj::byte> bytes) {
     const std::uint64_t unpacked = unpackedSize(bytes);
     const std::uint64_t limit = unpackedLimit(bytes.size());
     if (unpacked <= limit) return;
@@ -291,7 +225,7 @@ void refuseBombs(const Reading& reading, kj::ArrayPtr<const kj::byte> bytes) {
                  std::to_string(bytes.size()) + " bytes may take" + std::string(kDamaged));
 }
 
-Scene unpackScene(const Reading& reading, kj::ArrayPtr<const kj::byte> bytes) {
+Scene unpackScene(const MsceneReading& reading, kj::ArrayPtr<const kj::byte> bytes) {
     refuseBombs(reading, bytes);
     capnp::ReaderOptions options;
     // Bounds what the message claims to hold as well, before any of it is allocated.
@@ -333,7 +267,7 @@ std::vector<std::byte> readBytes(const std::filesystem::path& path) {
 }  // namespace
 
 Scene parseMscene(std::span<const std::byte> bytes, const std::string& sceneName, std::vector<std::string>* warnings) {
-    const Reading reading(sceneName, bytes.size(), warnings);
+    const MsceneReading reading(sceneName, bytes.size(), warnings);
     if (bytes.empty()) reading.fail("is empty; a scene is a packed Cap'n Proto message");
     try {
         Scene scene = unpackScene(reading, kj::arrayPtr(reinterpret_cast<const kj::byte*>(bytes.data()), bytes.size()));

@@ -22,7 +22,7 @@ namespace tessera {
                                 std::vector<std::string>* warnings = nullptr);
 
 // Writes `scene` as a packed message: for tests, and to make scenes with Tessera's own fields. Temporary name, then renamed.
-// Edge records are left out: they are weld()'s, to be made again whenever a scene is loaded.
+// Meshes' edge records and texture nets are left out: the former are weld()'s, to be made again whenever a scene is loaded.
 void writeMscene(const Scene& scene, const std::filesystem::path& path);
 [[nodiscard]] std::vector<std::byte> serializeMscene(const Scene& scene);
 

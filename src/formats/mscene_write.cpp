@@ -1,5 +1,7 @@
 // Writes .mscene files. A scene is written as it is, sound or not: the reader judges.
 #include "formats/mscene.h"
+#include "formats/mscene_cage.h"
+#include "formats/mscene_lists.h"
 #include "formats/output_file.h"
 #include "scene/text.h"
 #include "tessera/error.h"
@@ -20,13 +22,17 @@ namespace {
 // Cap'n Proto keeps a list's length in 29 bits.
 constexpr std::size_t kLongestList = (std::size_t{1} << 29U) - 1;
 
-std::uint32_t listSize(std::size_t size, const std::string& what) {
+}  // namespace
+
+std::uint32_t msceneListSize(std::size_t size, const std::string& what) {
     if (size > kLongestList) {
         throw Error(what + ": " + std::to_string(size) + " are more than the " + std::to_string(kLongestList) +
                     " that a list in an .mscene file holds; split it");
     }
     return static_cast<std::uint32_t>(size);
 }
+
+namespace {
 
 capnp::Text::Reader text(const std::string& value) { return {value.c_str(), value.size()}; }
 
@@ -62,7 +68,7 @@ schema::Mesh::Type meshType(PatchKind kind) {
 void write(schema::Mesh::Builder target, const Mesh& mesh) {
     target.setName(text(mesh.name));
     target.setType(meshType(mesh.kind));
-    auto positions = target.initPositions(listSize(mesh.points.size() * 3, "mesh " + quotedName(mesh.name) + ", coordinates"));
+    auto positions = target.initPositions(msceneListSize(mesh.points.size() * 3, "mesh " + quotedName(mesh.name) + ", coordinates"));
     std::uint32_t i = 0;
     for (const glm::vec3& point : mesh.points) {
         positions.set(i++, point.x);
@@ -70,7 +76,7 @@ void write(schema::Mesh::Builder target, const Mesh& mesh) {
         positions.set(i++, point.z);
     }
     if (mesh.weights.empty()) return;
-    auto weights = target.initWeights(listSize(mesh.weights.size(), "mesh " + quotedName(mesh.name) + ", weights"));
+    auto weights = target.initWeights(msceneListSize(mesh.weights.size(), "mesh " + quotedName(mesh.name) + ", weights"));
     for (i = 0; i < weights.size(); ++i) weights.set(i, mesh.weights[i]);
 }
 
@@ -106,6 +112,8 @@ void write(schema::Object::Builder target, const Object& object) {
     material.setRoughness(object.material.roughness);
 }
 
+void write(schema::Cage::Builder target, const Cage& cage) { writeCage(target, cage); }
+
 void write(schema::Camera::Builder target, const Camera& camera) {
     target.setName(text(camera.name));
     write(target.initTransform(), camera.transform);
@@ -124,10 +132,12 @@ void writeAll(List target, const std::vector<Item>& items) {
 std::vector<std::byte> serializeMscene(const Scene& scene) {
     capnp::MallocMessageBuilder message;
     schema::Scene::Builder root = message.initRoot<schema::Scene>();
-    writeAll(root.initMeshes(listSize(scene.meshes.size(), "meshes")), scene.meshes);
-    writeAll(root.initLights(listSize(scene.lights.size(), "lights")), scene.lights);
-    writeAll(root.initObjects(listSize(scene.objects.size(), "objects")), scene.objects);
-    writeAll(root.initCameras(listSize(scene.cameras.size(), "cameras")), scene.cameras);
+    writeAll(root.initMeshes(msceneListSize(scene.meshes.size(), "meshes")), scene.meshes);
+    writeAll(root.initLights(msceneListSize(scene.lights.size(), "lights")), scene.lights);
+    writeAll(root.initObjects(msceneListSize(scene.objects.size(), "objects")), scene.objects);
+    writeAll(root.initCameras(msceneListSize(scene.cameras.size(), "cameras")), scene.cameras);
+    // Left out where there are none: scenes without cages keep the bytes that they had before there were any.
+    if (!scene.cages.empty()) writeAll(root.initCages(msceneListSize(scene.cages.size(), "cages")), scene.cages);
     kj::VectorOutputStream stream;
     capnp::writePackedMessage(stream, message);
     const kj::ArrayPtr<kj::byte> packed = stream.getArray();

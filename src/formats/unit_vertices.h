@@ -18,22 +18,32 @@ public:
 
     [[nodiscard]] const WeldNumbers& weld() const { return weld_; }
 
+    // Whether the object's mesh has texture coordinates.
+    [[nodiscard]] bool textured(std::uint32_t object) const { return !textured_.empty() && textured_[object] != nullptr; }
+
     // To be called for each unit of the mesh, in order.
     void read(const MeshPiece& piece, const MeshUnit& unit);
 
+    // The unit's vertices, with texture coordinates for (u, v) where their mesh has them (tessera/texture.h). Where the mesh was made with
+    // positions only, all else is 0.
+    [[nodiscard]] std::span<const MeshVertex> vertices() const { return vertices_; }
     // The file's numbers of the unit's vertices, from 0.
     [[nodiscard]] std::span<const std::uint64_t> numbers() const { return numbers_; }
     // Vertices that are the file's next ones. Those around a patch in parts come when all its sides were read: a side may name vertices
-    // that come later. Where the mesh has positions only, the rest is 0.
+    // that come later.
     [[nodiscard]] std::span<const MeshVertex> fresh() const { return fresh_; }
 
 private:
+    void takeVertices(const MeshPiece& piece, const MeshUnit& unit);
     void beginPatch(std::size_t patch);
-    void readWhole(const MeshPiece& piece, const MeshUnit& unit);
-    void readPart(const MeshPiece& piece, const MeshUnit& unit);
+    void readWhole();
+    void readPart(const MeshUnit& unit);
 
     const MeshOutline outline_;
     WeldNumbers weld_;
+    std::vector<const Mesh*> textured_;  // of each object: its mesh where that has texture nets; empty where none has
+    std::vector<MeshVertex> made_;       // where they are not the piece's own
+    std::span<const MeshVertex> vertices_;
     std::vector<std::uint64_t> loop_;   // numbers, of the patch
     std::vector<MeshVertex> heldLoop_;  // its vertices, until the first of the inner ones is read
     std::uint64_t firstInner_ = 0;

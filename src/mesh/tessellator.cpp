@@ -48,6 +48,7 @@ const DeviceInfo& Tessellator::device() const { return impl_->job.device(); }
 void Tessellator::setScene(const Scene& scene, Orientation orientation) {
     impl_->hasScene = false;
     scene.validate();
+    requireMeshes(scene);
     impl_->job.setScene(scene, orientation);
     impl_->hasScene = true;
 }

@@ -2,6 +2,8 @@
 #include <algorithm>
 
 #include "render/plan_memory.h"
+
+#include "scene/validate.h"
 #include "surface/patch_stream.h"
 
 namespace tessera {
@@ -16,6 +18,7 @@ MemoryPlan planMemory(const RenderOptions& options, const PatchSource& source, c
 
 MemoryPlan planMemory(const RenderOptions& options, const Scene& scene, const DeviceInfo& device) {
     scene.validate();
+    requireMeshes(scene);
     return planMemory(options, PatchSource(scene), SceneCounts{scene.lights.size()}, device);
 }
 

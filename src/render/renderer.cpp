@@ -69,6 +69,7 @@ const DeviceInfo& Renderer::device() const { return impl_->stations.session.devi
 void Renderer::setScene(const Scene& scene) {
     impl_->hasScene = false;
     scene.validate();
+    requireMeshes(scene);
     impl_->stations.stream.setSource(PatchSource(scene));
     impl_->stations.lights = DeviceBuffer();
     impl_->stations.scene = scene;

@@ -57,7 +57,7 @@ void addCamera(Scene& scene, const glm::vec3& eye, const glm::vec3& target, floa
 glm::quat uprightRotation() { return {0.70710678F, -0.70710678F, 0.0F, 0.0F}; }
 
 const std::vector<std::string_view>& builtinSceneNames() {
-    static const std::vector<std::string_view> names{"teapot", "sphere", "torus", "quadrics", "nurbs", "pn"};
+    static const std::vector<std::string_view> names{"teapot", "sphere", "torus", "quadrics", "nurbs", "pn", "cube_creases", "character"};
     return names;
 }
 
@@ -73,6 +73,8 @@ Scene builtinScene(std::string_view sceneName) {
     if (sceneName == "quadrics") return quadricsScene();
     if (sceneName == "nurbs") return nurbsScene();
     if (sceneName == "pn") return pnScene();
+    if (sceneName == "cube_creases") return cubeCreasesScene();
+    if (sceneName == "character") return characterScene();
     std::string known;
     for (const std::string_view one : builtinSceneNames()) known += (known.empty() ? "" : ", ") + std::string(one);
     throw Error("no built-in scene " + quotedName(sceneName) + "; there is: " + known + ", or give the path of a file");

@@ -15,6 +15,10 @@ namespace tessera {
 [[nodiscard]] Scene nurbsScene();     // a lobed vase and a tray: rational, of all degrees, knots unevenly spaced
 [[nodiscard]] Scene pnScene();        // PN triangles
 
+// Cages, to be made meshes by subdivide().
+[[nodiscard]] Scene cubeCreasesScene();  // cubes and hexagonal prisms in rows, all edges creased with 0, 1, 2, 3.5 and 10
+[[nodiscard]] Scene characterScene();    // a figure of 9984 quadrilaterals (scene/figure.h)
+
 // A light at infinity: +z of its transform points at `from`, as seen from the origin.
 [[nodiscard]] Light lightFrom(std::string lightName, LightKind kind, const glm::vec3& from, const glm::vec3& color, float intensity);
 

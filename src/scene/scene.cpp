@@ -14,14 +14,14 @@ const Item* findByName(const std::vector<Item>& items, std::string_view wanted) 
     return found == items.end() ? nullptr : &*found;
 }
 
-// Calls visit(object, mesh) for every object whose mesh exists. Hashed: a linear search for each
+// Calls visit(object, item) for every object whose item, one of `items`, exists. Hashed: a linear search for each
 // object would take minutes on a scene of a hundred thousand.
-template <typename Visit>
-void forEachPlacedMesh(const Scene& scene, Visit visit) {
-    std::unordered_map<std::string_view, const Mesh*> meshes;
-    for (const Mesh& mesh : scene.meshes) meshes.emplace(mesh.name, &mesh);
+template <typename Item, typename Visit>
+void forEachPlaced(const std::vector<Item>& items, const Scene& scene, Visit visit) {
+    std::unordered_map<std::string_view, const Item*> named;
+    for (const Item& item : items) named.emplace(item.name, &item);
     for (const Object& object : scene.objects) {
-        if (const auto found = meshes.find(object.mesh); found != meshes.end()) visit(object, *found->second);
+        if (const auto found = named.find(object.mesh); found != named.end()) visit(object, *found->second);
     }
 }
 
@@ -70,7 +70,7 @@ const Camera* Scene::findCamera(std::string_view cameraName) const { return find
 
 std::size_t Scene::placedPatchCount() const {
     std::size_t count = 0;
-    forEachPlacedMesh(*this, [&](const Object&, const Mesh& mesh) { count += mesh.patchCount(); });
+    forEachPlaced(meshes, *this, [&](const Object&, const Mesh& mesh) { count += mesh.patchCount(); });
     return count;
 }
 
@@ -81,13 +81,17 @@ void Bounds::include(const glm::vec3& point) {
 
 Bounds worldBounds(const Scene& scene) {
     Bounds bounds;
-    forEachPlacedMesh(scene, [&](const Object& object, const Mesh& mesh) {
+    forEachPlaced(scene.meshes, scene, [&](const Object& object, const Mesh& mesh) {
         const glm::dmat3 rotation = rotationMatrix(object.transform);
         const glm::dvec3 translation(object.transform.translation);
         const std::size_t step = pointsPerPatch(mesh.kind), positions = positionsPerPatch(mesh.kind);
         for (std::size_t k = 0; k < mesh.points.size(); ++k) {
             if (k % step < positions) bounds.include(glm::vec3(rotation * glm::dvec3(mesh.points[k]) + translation));
         }
+    });
+    forEachPlaced(scene.cages, scene, [&](const Object& object, const Cage& cage) {
+        const glm::dmat4 place = matrix(object.transform);
+        for (const glm::vec3& point : cage.points) bounds.include(glm::vec3(place * glm::dvec4(point, 1.0)));
     });
     return bounds;
 }

@@ -117,6 +117,40 @@ void checkEdges(const Mesh& mesh, const std::string& where) {
     }
 }
 
+void checkTexture(const Mesh& mesh, const std::string& where) {
+    if (mesh.textureNets.empty()) return;
+    if (mesh.textureNets.size() != 16 * mesh.patchCount()) {
+        fail(where, "has " + std::to_string(mesh.textureNets.size()) + " texture points for " + std::to_string(mesh.patchCount()) +
+                        " patches; give 16 a patch, or none");
+    }
+    for (std::size_t i = 0; i < mesh.textureNets.size(); ++i) {
+        if (std::isfinite(mesh.textureNets[i].x) && std::isfinite(mesh.textureNets[i].y)) continue;
+        fail(where + ", patch " + std::to_string(i / 16), "a texture point is not finite; repair it");
+    }
+}
+
+// Lists that do not fit each other are told when the cage is read as a surface (subdivide()): here only what would break any reader.
+void checkCage(const Cage& cage, const std::string& where) {
+    for (std::size_t i = 0; i < cage.points.size(); ++i) {
+        if (isPosition(cage.points[i])) continue;
+        fail(where + ", point " + std::to_string(i), pointText(cage.points[i]) + std::string(kPositionRule));
+    }
+    for (const Crease& crease : cage.creases) {
+        if (crease.sharpness >= 0.0F) continue;
+        fail(where + ", crease of vertices " + std::to_string(crease.a) + " and " + std::to_string(crease.b),
+             "sharpness " + numberText(crease.sharpness) + " is outside its range; give 0 to 10");
+    }
+    for (const Corner& corner : cage.corners) {
+        if (corner.sharpness >= 0.0F) continue;
+        fail(where + ", corner " + std::to_string(corner.vertex),
+             "sharpness " + numberText(corner.sharpness) + " is outside its range; give 0 to 10");
+    }
+    for (std::size_t i = 0; i < cage.texturePoints.size(); ++i) {
+        if (std::isfinite(cage.texturePoints[i].x) && std::isfinite(cage.texturePoints[i].y)) continue;
+        fail(where + ", texture point " + std::to_string(i), "is not finite; repair it");
+    }
+}
+
 void checkMesh(const Mesh& mesh, const std::string& where) {
     if (mesh.kind != PatchKind::bezier && mesh.kind != PatchKind::gregory && mesh.kind != PatchKind::rational &&
         mesh.kind != PatchKind::pn) {
@@ -125,6 +159,7 @@ void checkMesh(const Mesh& mesh, const std::string& where) {
     checkPoints(mesh, where);
     checkWeights(mesh, where);
     checkEdges(mesh, where);
+    checkTexture(mesh, where);
 }
 
 void checkMaterial(const Material& material, const std::string& where) {
@@ -152,6 +187,12 @@ void checkLight(const Light& light, const std::string& where) {
 
 void validatePoints(const Mesh& mesh, const std::string& where) { checkPoints(mesh, where); }
 
+void requireMeshes(const Scene& scene) {
+    if (scene.cages.empty()) return;
+    fail((scene.name.empty() ? std::string("scene") : scene.name) + ": cage " + quotedName(scene.cages.front().name),
+         "is no mesh yet; make meshes of cages by subdivide()");
+}
+
 void validateCamera(const Camera& camera, const std::string& where) {
     // The eye may stand beyond 1e9: that is where it sees all of a scene of that size.
     if (!isFinite(camera.transform.translation)) {
@@ -175,6 +216,10 @@ void Scene::validate() const {
     for (const Mesh& mesh : meshes) {
         if (!meshNames.insert(mesh.name).second) fail(where("mesh", mesh.name), "the name is used twice; give each mesh its own");
         checkMesh(mesh, where("mesh", mesh.name));
+    }
+    for (const Cage& cage : cages) {
+        if (!meshNames.insert(cage.name).second) fail(where("cage", cage.name), "the name is used twice; give each mesh its own");
+        checkCage(cage, where("cage", cage.name));
     }
     for (const Object& object : objects) {
         const std::string item = where("object", object.name);

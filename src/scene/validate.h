@@ -14,4 +14,7 @@ void validateCamera(const Camera& camera, const std::string& where);
 // Throws Error, which begins with `where`, on points that are no multiple of a patch's, are not finite or lie beyond 1e9.
 void validatePoints(const Mesh& mesh, const std::string& where);
 
+// Throws Error, naming the first cage, where cages are left that subdivide() has not made meshes of. Requires a validated scene.
+void requireMeshes(const Scene& scene);
+
 }  // namespace tessera

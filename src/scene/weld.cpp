@@ -70,7 +70,10 @@ WeldReport weld(Scene& scene, double tolerance) {
                     " is outside its range; give 0 to 0.1");
     }
     WeldReport report;
-    for (std::vector<Mesh*>& meshes : meshesByTransform(scene)) weldGroup(Group(std::move(meshes), tolerance), report);
+    for (std::vector<Mesh*>& meshes : meshesByTransform(scene)) {
+        std::erase_if(meshes, [](const Mesh* mesh) { return mesh->welded; });
+        if (!meshes.empty()) weldGroup(Group(std::move(meshes), tolerance), report);
+    }
     return report;
 }
 

@@ -1,7 +1,9 @@
-// Uses the installed library as an engine would: lists the devices, renders the built-in teapot, checks that it can be seen.
+// Uses the installed libraries as an engine would: lists the devices, renders the built-in teapot, checks that it can be seen, and makes
+// patches of subdivision surfaces.
 #include <tessera/device.h>
 #include <tessera/error.h>
 #include <tessera/renderer.h>
+#include <tessera/subdivision.h>
 
 #include <cstddef>
 #include <iostream>
@@ -35,11 +37,22 @@ int renderTeapot() {
     return 0;
 }
 
+int subdivideCubes() {
+    tessera::Scene scene = tessera::builtinScene("cube_creases");
+    for (const tessera::CageReport& report : tessera::subdivide(scene)) {
+        if (report.patches >= report.faces) continue;
+        std::cerr << "cage " << report.cage << " has too few patches\n";
+        return 1;
+    }
+    scene.validate();
+    return 0;
+}
+
 }  // namespace
 
 int main() {
     try {
-        return renderTeapot();
+        return renderTeapot() + subdivideCubes();
     } catch (const tessera::Error& error) {
         std::cerr << error.what() << "\n";
         return 1;

@@ -13,11 +13,11 @@ run(${CMAKE_COMMAND} --build ${FOLDER}/build)
 run(${FOLDER}/build/install_consumer)
 run(${FOLDER}/prefix/bin/tessera devices)
 
-# Public headers and the core alone: nothing of file formats or tests, and no header from the inside.
+# Public headers, the core and subdivision surfaces: nothing of file formats or tests, and no header from the inside.
 file(GLOB_RECURSE headers RELATIVE ${FOLDER}/prefix ${FOLDER}/prefix/*.h ${FOLDER}/prefix/*.clh)
 list(FILTER headers EXCLUDE REGEX "^include/tessera/[a-z_]+\\.h$")
 file(GLOB libraries RELATIVE ${FOLDER}/prefix ${FOLDER}/prefix/lib/*.* ${FOLDER}/prefix/lib/*/*.a)
-list(FILTER libraries EXCLUDE REGEX "libtessera\\.(a|so)")
+list(FILTER libraries EXCLUDE REGEX "libtessera(_subdivision)?\\.(a|so)")
 if(headers OR libraries)
     message(FATAL_ERROR "installed, and should not be: ${headers} ${libraries}")
 endif()
