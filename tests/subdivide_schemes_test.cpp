@@ -272,6 +272,29 @@ TEST(Subdivide, SchemesTakeGarbageLargeValencesAndNothingness) {
     }
 }
 
+// Smooth ones would take minutes.
+TEST(Subdivide, IsBilinearWhereMoreFacesMeetThanCanBeSmooth) {
+    const Made wheel = subdivided(test::wheelCage(3000), SubdivisionScheme::catmullClark, withTolerance(1e-2));
+    EXPECT_EQ(wheel.report.patches, 9000U);
+    ASSERT_EQ(wheel.report.notes.size(), 1U);
+    EXPECT_EQ(wheel.report.notes[0].rfind("a vertex of 3000 faces: drawn bilinear, not smooth", 0), 0U);
+
+    std::vector<std::uint32_t> corners(3000);
+    for (std::uint32_t k = 0; k < corners.size(); ++k) corners[k] = k;
+    Cage disc = test::cageOf(test::scatteredPoints(corners.size()), {corners});
+    const Made face = subdivided(disc, SubdivisionScheme::catmullClark, withTolerance(1e-2));
+    EXPECT_EQ(face.report.patches, 3000U);
+    ASSERT_EQ(face.report.notes.size(), 1U);
+    EXPECT_EQ(face.report.notes[0].rfind("a face of 3000 corners: drawn bilinear, not smooth", 0), 0U);
+}
+
+// What single precision does not hold is no reason to cut patches: without end, that is.
+TEST(Subdivide, CagesFarFromTheOriginStaySmall) {
+    Cage cube = cubeCage();
+    for (glm::vec3& p : cube.points) p = 1e-6F * p + glm::vec3(1000.0F, 0.0F, 0.0F);
+    EXPECT_LT(subdivided(cube, SubdivisionScheme::catmullClark).report.patches, 1000U);
+}
+
 TEST(Subdivide, SchemesTakeRandomGarbage) {
     std::size_t patches = 0;
     for (std::uint32_t seed = 0; seed < 200; ++seed) {

@@ -10,6 +10,7 @@
 #include <cmath>
 #include <map>
 #include <set>
+#include <tuple>
 
 #include "mesh/weld_numbers.h"
 #include "subdivision/refiner.h"
@@ -54,8 +55,9 @@ Scene sceneOf(const Cage& cage) {
     return scene;
 }
 
-RendererSettings settings() {
+RendererSettings settings(int lanes = 0) {
     RendererSettings out;
+    out.lanes = lanes;
     out.cacheFolder = TESSERA_TEST_CACHE;
     return out;
 }
@@ -210,7 +212,6 @@ TEST(Tables, MeshesKeepTheirToleranceAndStayClosed) {
             if (tessellator().tables().coarseSteps == 0) {
                 const double worst = worstDistance(mesh, limit);
                 EXPECT_LE(worst, tolerance);
-                printf("share %g at %g\n", worst / tolerance, tolerance);
                 std::set<std::uint32_t> counts;
                 std::map<std::uint32_t, std::uint32_t> each;
                 for (const MeshVertex& v : mesh.vertices) ++each[v.patch];
@@ -297,6 +298,31 @@ TEST(Tables, StreamsWeldWhatIsSharedAndNothingElse) {
         EXPECT_EQ(sink.bits.size(), distinct.size());
         EXPECT_EQ(sink.triangles, mesh.indices.size() / 3);
         EXPECT_EQ(openEdges(mesh), 0U);
+    }
+}
+
+TEST(Tables, MeshesAreTheSameForEveryNumberOfLanes) {
+    Cage cage = test::extrudedCage(6, 4);
+    test::tagAtRandom(cage, 4, false);
+    TableTessellator eight(settings(8)), one(settings(1));
+    for (const double tolerance : {0.0, 0.02}) {
+        TableOptions options;
+        options.tolerance = tolerance;
+        if (tolerance == 0) options.level = 4;
+        tessellator().setScene(sceneOf(cage));
+        const Kept wide = keep(tessellator().tessellate(options));
+        for (TableTessellator* const other : {&eight, &one}) {
+            other->setScene(sceneOf(cage));
+            const Kept narrow = keep(other->tessellate(options));
+            EXPECT_EQ(narrow.indices, wide.indices);
+            ASSERT_EQ(narrow.vertices.size(), wide.vertices.size());
+            for (std::size_t k = 0; k < wide.vertices.size(); ++k) {
+                const MeshVertex &a = wide.vertices[k], &b = narrow.vertices[k];
+                ASSERT_EQ(bitsOf(a.position), bitsOf(b.position)) << k;
+                ASSERT_EQ(std::tie(a.u, a.v, a.object, a.patch), std::tie(b.u, b.v, b.object, b.patch)) << k;
+                for (int c = 0; c < 3; ++c) ASSERT_NEAR(a.normal[c], b.normal[c], 1e-5) << k;
+            }
+        }
     }
 }
 

@@ -266,6 +266,17 @@ TEST(TextureNets, CutsLeaveTheSurfaceAsItIs) {
     }
 }
 
+TEST(TextureNets, OfASingleValueAreNotCut) {
+    for (const glm::vec2& value : {glm::vec2(0.3F, 0.7F), glm::vec2(-1000.1F, 0.0F)}) {
+        Cage cage = cubeCage();
+        cage.texturePoints.assign(1, value);
+        cage.faceTexturePoints.assign(cage.faceVertices.size(), 0);
+        const Made made(cage);
+        const std::vector<Cell> cells = made.grid(0);
+        EXPECT_EQ(made.textured(cells, 1e-5).size(), cells.size());
+    }
+}
+
 TEST(TextureNets, GregoryCellsAreNotCut) {
     const Made made(unfoldedCube());
     std::vector<Cell> cells = subdivision::gregoryCells(*made.refiner, made.cage.points, made.domains);

@@ -201,7 +201,7 @@ std::optional<ShownPlan> planFor(InfoArguments& arguments, const Scene& scene) {
 
 void showInfo(InfoArguments arguments) {
     checkFrameOptions(arguments.render);
-    const LoadedScene loaded = loadScene(arguments.render.scene);
+    const LoadedScene loaded = loadScene(arguments.render.scene, false);
     const std::optional<ShownPlan> shown = planFor(arguments, loaded.scene);
     if (arguments.json) {
         Json json = sceneJson(loaded);

@@ -6,6 +6,7 @@
 #include "formats/mesh_file.h"
 #include "formats/mscene.h"
 #include "parse_values.h"
+#include "progress_line.h"
 #include "tessera/error.h"
 
 #include <filesystem>
@@ -57,8 +58,10 @@ void checkSurfaces(Source source, const SceneArguments& arguments, const Scene& 
 }
 
 // The reports' notes become warnings.
-void makeMeshes(LoadedScene& loaded, const SubdivisionOptions& options) {
+void makeMeshes(LoadedScene& loaded, SubdivisionOptions options, bool quiet) {
     if (loaded.scene.cages.empty()) return;
+    ProgressLine line(!quiet, 1);
+    if (line.enabled()) options.progress = [&line](std::string_view stage, double fraction) { line.update(0, stage, fraction); };
     loaded.cages = subdivide(loaded.scene, options);
     for (const CageReport& report : loaded.cages) {
         for (const std::string& note : report.notes) {
@@ -82,9 +85,9 @@ LoadedScene loadCages(const SceneArguments& arguments) {
     return loaded;
 }
 
-LoadedScene loadScene(const SceneArguments& arguments) {
+LoadedScene loadScene(const SceneArguments& arguments, bool quiet) {
     LoadedScene loaded = loadCages(arguments);
-    makeMeshes(loaded, arguments.subdivision);
+    makeMeshes(loaded, arguments.subdivision, quiet);
     if (loaded.scene.placedPatchCount() == 0) {
         loaded.warnings.push_back(arguments.scene + " places no patches: there is nothing of it to be seen");
     }

@@ -19,9 +19,10 @@ struct LoadedScene {
 };
 
 // The built-in scene of that name, else the file of that path: an .mscene file, or a polygon mesh of a format that readMeshFile()
-// knows; cages made meshes, welded. Throws Error: neither exists, a format that is not known, or a bad file; UsageError on options that
-// make no sense together, on --flat for what is no triangle mesh, and on options of subdivision surfaces for what is none.
-[[nodiscard]] LoadedScene loadScene(const SceneArguments& arguments);
+// knows; cages made meshes, which tells how far it is unless `quiet`, and welded. Throws Error: neither exists, a format that is not known,
+// or a bad file; UsageError on options that make no sense together, on --flat for what is no triangle mesh, and on options of subdivision
+// surfaces for what is none.
+[[nodiscard]] LoadedScene loadScene(const SceneArguments& arguments, bool quiet);
 
 // The same with the scene's cages as they are, of the scheme that is asked for, and nothing welded.
 [[nodiscard]] LoadedScene loadCages(const SceneArguments& arguments);

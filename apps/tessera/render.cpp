@@ -106,7 +106,7 @@ void render(RenderArguments arguments, const std::string& commandLine) {
     checkRenderArguments(arguments);
     Interrupt interrupt;
     checkOutputs(arguments, interrupt);
-    const LoadedScene loaded = loadScene(arguments.scene);
+    const LoadedScene loaded = loadScene(arguments.scene, arguments.quiet);
     const ChosenCamera chosen = chooseCamera(loaded.scene, arguments.camera);
     if (arguments.dicingCamera) arguments.options.dicingCamera = namedCamera(loaded.scene, *arguments.dicingCamera, "--dicing-camera");
     Renderer renderer(arguments.settings);

@@ -28,7 +28,7 @@ std::string patchesText(const MeshSizes& sizes) {
 }
 
 void tessellatePatches(TessellateArguments& arguments, Interrupt& interrupt, MeshOutput& output) {
-    const LoadedScene loaded = loadScene(arguments.scene);
+    const LoadedScene loaded = loadScene(arguments.scene, arguments.quiet);
     TessellateOptions& options = arguments.options;
     options.positionsOnly = arguments.file.positionsOnly;
     const std::vector<std::string> notes = completeDensity(options, arguments.camera, loaded);

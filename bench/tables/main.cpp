@@ -137,7 +137,7 @@ void writeJson(const std::string& path, const std::vector<Result>& results) {
     file << "{\"faces\": " << cageFaces << ", \"results\": [";
     const char* before = "\n";
     for (const Result& r : results) {
-        file << before << "  {\"name\": \"" << r.contender.name << "\", \"level\": " << r.level
+        file << before << R"(  {"name": ")" << r.contender.name << R"(", "level": )" << r.level
              << ", \"normals\": " << (r.normals ? "true" : "false") << ", \"vertices\": " << r.contender.vertices
              << ", \"share\": " << r.contender.share << ", \"ms\": " << r.ms << ", \"vertexMs\": " << r.vertexMs
              << ", \"memoryBytes\": " << r.contender.memoryBytes << ", \"frameBytes\": " << r.contender.frameBytes << "}";

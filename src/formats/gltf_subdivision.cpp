@@ -106,7 +106,7 @@ private:
 
     // The value of an enumeration whose numbers are given with the names.
     template <typename Value>
-    Value named(const std::string& name, const std::vector<std::pair<std::string, int>>& known, Value usual) const {
+    [[nodiscard]] Value named(const std::string& name, const std::vector<std::pair<std::string, int>>& known, Value usual) const {
         const Json& value = member(source_, name);
         if (value.is_null()) return usual;
         std::string names;
@@ -124,19 +124,19 @@ private:
         for (const Json& one : list) read(one);
     }
 
-    std::uint32_t number(const std::string& name, const Json& value, std::uint64_t most) const {
+    [[nodiscard]] std::uint32_t number(const std::string& name, const Json& value, std::uint64_t most) const {
         if (!value.is_number_unsigned() || value.get<std::uint64_t>() > most) {
             fail(name, "has a number that is not whole or not within 0 to " + std::to_string(most));
         }
         return static_cast<std::uint32_t>(value.get<std::uint64_t>());
     }
 
-    std::uint32_t vertex(const std::string& name, const Json& value) const {
+    [[nodiscard]] std::uint32_t vertex(const std::string& name, const Json& value) const {
         if (vertices_ == 0) fail(name, "names vertices, and the primitive's POSITION has none");
         return number(name, value, vertices_ - 1);
     }
 
-    float sharpness(const std::string& name, const Json& value) const {
+    [[nodiscard]] float sharpness(const std::string& name, const Json& value) const {
         if (!value.is_number() || !(value.get<double>() >= 0.0)) fail(name, "has a sharpness that is no number of 0 or more");
         return static_cast<float>(std::min(value.get<double>(), 1e6));
     }

@@ -74,7 +74,7 @@ struct TagTable {
     };
     std::unordered_map<Key, Entry> entries;
 
-    std::size_t unused() const {
+    [[nodiscard]] std::size_t unused() const {
         return static_cast<std::size_t>(std::count_if(entries.begin(), entries.end(), [](const auto& one) { return !one.second.used; }));
     }
 };

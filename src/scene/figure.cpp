@@ -101,7 +101,7 @@ public:
 
 private:
     [[nodiscard]] std::uint32_t vertex(std::size_t face, std::size_t corner) const { return coarse_.faceVertices[4 * face + corner % 4]; }
-    [[nodiscard]] glm::dvec3 point(std::uint32_t number) const { return glm::dvec3(coarse_.points[number]); }
+    [[nodiscard]] glm::dvec3 point(std::uint32_t number) const { return {coarse_.points[number]}; }
 
     void addFacePoints() {
         for (std::size_t face = 0; face < coarse_.faceCount(); ++face) {

@@ -32,6 +32,10 @@ constexpr int kDistanceSamples = 5;
 // Each face has at most as many domains, and each domain as many lines and points of its own, as OpenSubdiv's numbers can tell.
 constexpr std::size_t kMostCorners = std::numeric_limits<std::int32_t>::max() / 4;
 
+// Smooth patches at a vertex, or at a face's middle, cost OpenSubdiv's Bfr time by the cube of its number of faces and memory by the
+// square: 3 to 5 seconds at 300, minutes and gigabytes at 3000.
+constexpr std::size_t kMostSmoothFaces = 300;
+
 // The diagonal of the cage's bounds; not 0 where it is all in one place, so that tolerances stay above 0.
 double sizeOf(const Cage& cage) {
     Bounds bounds;
@@ -53,7 +57,7 @@ std::vector<Cell> smoothCells(const Cage& cage, const Refiner& refiner, const Qu
         cells = gregoryCells(refiner, cage.points, domains);
     } else {
         LimitCounts counts;
-        cells = limitCells(refiner, cage.points, domains, {options.tolerance * sizeOf(cage)}, &counts);
+        cells = limitCells(refiner, cage.points, domains, {options.tolerance * sizeOf(cage), options.progress}, &counts);
         capped = counts.cappedCorners;
     }
     report.limitDistance = limitDistance(refiner, cage.points, domains, cells, kDistanceSamples).greatest;
@@ -82,6 +86,20 @@ std::vector<Mesh> quadMeshes(const Cage& cage, const SubdivisionOptions& options
         meshes.push_back(std::move(*mesh));
     }
     return meshes;
+}
+
+// Makes a clean cage bilinear where that is all that can be had in reasonable time.
+void flattenCrowded(Cage& cage, CageReport& report) {
+    std::vector<std::uint32_t> faces(cage.points.size(), 0);
+    for (const std::uint32_t vertex : cage.faceVertices) ++faces[vertex];
+    const std::size_t mostFaces = faces.empty() ? 0 : *std::max_element(faces.begin(), faces.end());
+    const std::size_t mostCorners = cage.faceSizes.empty() ? 0 : *std::max_element(cage.faceSizes.begin(), cage.faceSizes.end());
+    if (std::max(mostFaces, mostCorners) <= kMostSmoothFaces) return;
+    cage.scheme = SubdivisionScheme::bilinear;
+    const std::string what = mostFaces > kMostSmoothFaces ? "a vertex of " + std::to_string(mostFaces) + " faces"
+                                                          : "a face of " + std::to_string(mostCorners) + " corners";
+    report.notes.push_back(what + ": drawn bilinear, not smooth; give vertices and faces at most " + std::to_string(kMostSmoothFaces) +
+                           ", or take tables");
 }
 
 // Triangles only, as clean as the cage was.
@@ -124,6 +142,7 @@ std::vector<Mesh> cageMeshes(const Cage& cage, const SubdivisionOptions& options
     }
     Cage clean = cleanCage(cage, options.creaseAngle, report).cage;
     if (clean.scheme == SubdivisionScheme::loop) clean = loopCage(std::move(clean), report);
+    if (clean.scheme == SubdivisionScheme::catmullClark) flattenCrowded(clean, report);
     countCage(clean, report);
     if (report.faces == 0) return {};
     if (clean.scheme == SubdivisionScheme::none) return polygonMeshes(clean, report);

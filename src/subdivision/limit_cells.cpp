@@ -28,6 +28,7 @@ constexpr double kNarrow = 1e-4;
 constexpr std::uint32_t kPlainDepth = kLimitLevels - 1;
 constexpr std::uint32_t kZoomLevels = 6;
 
+// Of the cage, or of its coordinates where it lies far from the origin: what numbers there hold no more is no reason to cut.
 double sizeOf(std::span<const glm::vec3> points) {
     if (points.empty()) return 0.0;
     glm::dvec3 low(points[0]), high(points[0]);
@@ -35,7 +36,8 @@ double sizeOf(std::span<const glm::vec3> points) {
         low = glm::min(low, glm::dvec3(p));
         high = glm::max(high, glm::dvec3(p));
     }
-    return glm::distance(low, high);
+    const glm::dvec3 largest = glm::max(glm::abs(low), glm::abs(high));
+    return std::max({glm::distance(low, high), largest.x, largest.y, largest.z});
 }
 
 // How much less often a domain is halved than a face's edge: a part of a face is one itself. In all of its corners but the face's middle,
@@ -49,20 +51,30 @@ public:
           points_(points.begin(), points.end()),
           limit_(refiner, points),
           domains_(domains),
-          tolerance_(options.tolerance),
+          progress_(options.progress),
           size_(sizeOf(points)),
+          tolerance_(std::max(options.tolerance, std::numeric_limits<float>::epsilon() * size_)),
           angle_(kCapAngle * std::sqrt(std::max(1.0, options.tolerance / std::max(kFine * size_, 1e-300)))),
           depths_(domains.points),
           irregular_(domains.domains.size()) {}
 
     std::vector<Cell> make(LimitCounts& counts) {
-        for (std::uint32_t k = 0; k < domains_.domains.size(); ++k) measureCorners(k);
+        for (std::uint32_t k = 0; k < domains_.domains.size(); ++k) {
+            measureCorners(k);
+            tell(0.0, k, domains_.domains.size());
+        }
         for (std::uint32_t k = 0; k < domains_.domains.size(); ++k) {
             const std::size_t before = cells_.size();
             cutDomain(k);
             if (cells_.size() == before + 1) ++counts.regularDomains;
+            tell(0.4, k, domains_.domains.size());
         }
-        for (const auto& [point, corners] : cornersToZoom()) zoom(corners);
+        const std::map<std::uint32_t, std::vector<DomainCorner>> toZoom = cornersToZoom();
+        std::size_t zoomed = 0;
+        for (const auto& [point, corners] : toZoom) {
+            zoom(corners);
+            tell(0.8, zoomed++, toZoom.size());
+        }
         std::stable_sort(cells_.begin(), cells_.end(), [](const Cell& a, const Cell& b) { return a.domain < b.domain; });
         for (const std::array<bool, 4>& corners : irregular_) {
             counts.cappedCorners += static_cast<std::size_t>(std::count(corners.begin(), corners.end(), true));
@@ -74,6 +86,12 @@ public:
     }
 
 private:
+    // Item `done` of a part of the work that begins at `from`; the last part is half as long as the others.
+    void tell(double from, std::size_t done, std::size_t items) const {
+        if (!progress_ || done % 64 != 0) return;
+        progress_("subdivide", from + (from < 0.8 ? 0.4 : 0.2) * static_cast<double>(done) / static_cast<double>(items));
+    }
+
     static constexpr std::uint32_t kTooDeep = kPlainDepth + 1;
 
     // Finds which corners of the domain are irregular, and how small the cells around them have to be.
@@ -159,8 +177,9 @@ private:
     std::vector<glm::dvec3> points_;
     LimitSurface limit_;
     const QuadDomains& domains_;
-    double tolerance_;                   // scene units
+    const Progress& progress_;
     double size_;                        // scene units
+    double tolerance_;                   // scene units
     double angle_;                       // radians
     std::vector<std::uint32_t> depths_;  // of the domains' points that are irregular corners: how often faces' edges are halved there
     std::vector<std::array<bool, 4>> irregular_;  // a domain's corners

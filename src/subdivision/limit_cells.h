@@ -7,11 +7,13 @@
 
 #include "subdivision/cells.h"
 #include "subdivision/refiner.h"
+#include "tessera/progress.h"
 
 namespace tessera::subdivision {
 
 struct LimitOptions {
     double tolerance = 0;  // scene units, above 0: how far cells at irregular corners may lie from the limit surface
+    Progress progress{};   // told from 0 to 1, where it is set
 };
 
 struct LimitCounts {

@@ -123,6 +123,7 @@ private:
                 const double u = static_cast<double>(i) / (samples_ - 1), v = static_cast<double>(j) / (samples_ - 1);
                 const glm::dvec2 at(std::ldexp(cell.u + u, -static_cast<int>(cell.levelU)),
                                     std::ldexp(cell.v + v, -static_cast<int>(cell.levelV)));
+                if (isInLastCell(at, domains_.domains[cell.domain])) continue;
                 const double distance = distanceTo(pointOf(cell, u, v), at);
                 if (distance <= found_.greatest) continue;
                 found_.greatest = distance;
@@ -131,6 +132,14 @@ private:
                 found_.v = v;
             }
         }
+    }
+
+    // Where Bfr approximates by itself: next to a corner, and on that cell's border, though not in the corner.
+    [[nodiscard]] bool isInLastCell(const glm::dvec2& at, const QuadDomain& domain) const {
+        if (limit_.polynomial()) return false;
+        const double last = std::ldexp(1.0, (domain.subFace >= 0 ? 1 : 0) - kLimitLevels);
+        const glm::dvec2 away = glm::min(at, 1.0 - at);
+        return away.x <= last && away.y <= last && away != glm::dvec2(0.0);
     }
 
     // Of `point` from the limit surface near `at`; ends as soon as it cannot raise the greatest.

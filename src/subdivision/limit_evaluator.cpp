@@ -7,15 +7,6 @@ namespace tessera::subdivision {
 
 namespace {
 
-namespace Bfr = OpenSubdiv::Bfr;
-
-// Levels at which the surface is replaced by an approximation; so deep that none is seen. Sharpness 10 is for ever.
-Bfr::SurfaceFactory::Options deepest() {
-    Bfr::SurfaceFactory::Options options;
-    options.SetApproxLevelSmooth(10).SetApproxLevelSharp(10);
-    return options;
-}
-
 template <typename Vector>
 std::span<const float> floats(std::span<const Vector> vectors) {
     static_assert(sizeof(Vector) == sizeof(float) * Vector::length());
@@ -24,19 +15,20 @@ std::span<const float> floats(std::span<const Vector> vectors) {
 
 }  // namespace
 
-LimitEvaluator::LimitEvaluator(const Refiner& refiner, std::span<const glm::vec3> points)
-    : factory_(refiner, deepest()), values_(floats(points)) {}
+LimitEvaluator::LimitEvaluator(const Refiner& refiner, std::span<const glm::vec3> points) : maker_(refiner), values_(floats(points)) {}
 
 LimitEvaluator::LimitEvaluator(const Refiner& refiner, std::span<const glm::vec2> textures)
-    : factory_(refiner, deepest()), faceVarying_(true), size_(2), values_(floats(textures)) {}
+    : maker_(refiner), faceVarying_(true), size_(2), values_(floats(textures)) {}
 
 bool LimitEvaluator::select(const QuadDomain& domain) {
     subFace_ = domain.subFace;
     if (face_ == domain.face) return valid_;
     face_ = domain.face;
     const auto face = static_cast<int>(domain.face);
-    valid_ = faceVarying_ ? factory_.InitFaceVaryingSurface(face, &surface_, 0) : factory_.InitVertexSurface(face, &surface_);
+    valid_ =
+        faceVarying_ ? maker_.factory().InitFaceVaryingSurface(face, &surface_, 0) : maker_.factory().InitVertexSurface(face, &surface_);
     if (!valid_) return false;
+    maker_.made(surface_);
     const auto count = static_cast<std::size_t>(surface_.GetNumPatchPoints()) * static_cast<std::size_t>(size_);
     patchPoints_.resize(count);
     surface_.GatherControlPoints(values_.data(), Descriptor(size_), patchPoints_.data(), Descriptor(size_));
@@ -64,7 +56,7 @@ LimitPoint LimitEvaluator::evaluate(double u, double v) const {
     std::array<double, 3> p{}, du{}, dv{};
     surface_.Evaluate(at.uv, patchPoints_.data(), Descriptor(size_), p.data(), du.data(), dv.data());
     const auto vector = [](const std::array<double, 3>& a) { return glm::dvec3(a[0], a[1], a[2]); };
-    return {vector(p), at.scale * vector(du), at.scale * vector(dv)};
+    return {vector(p), at.scale * vector(du), at.scale * vector(dv), glm::dvec3(0.0)};
 }
 
 }  // namespace tessera::subdivision

@@ -1,7 +1,6 @@
 // The limit surface itself, face by face, in double precision (OpenSubdiv's Bfr).
 #pragma once
 
-#include <opensubdiv/bfr/refinerSurfaceFactory.h>
 #include <opensubdiv/bfr/surface.h>
 
 #include <glm/glm.hpp>
@@ -11,17 +10,11 @@
 #include <span>
 #include <vector>
 
+#include "subdivision/limit_surface.h"
 #include "subdivision/quad_domains.h"
 #include "subdivision/refiner.h"
 
 namespace tessera::subdivision {
-
-// Derivatives are of the domain's parameters; of no use within 2^-12 of an irregular vertex, but for their directions.
-struct LimitPoint {
-    glm::dvec3 position{0.0};
-    glm::dvec3 du{0.0};
-    glm::dvec3 dv{0.0};
-};
 
 class LimitEvaluator {
 public:
@@ -40,10 +33,10 @@ public:
 
     // Both parameters 0 to 1 across the domain.
     [[nodiscard]] glm::dvec3 position(double u, double v) const;
+    // Without duv, which is 0.
     [[nodiscard]] LimitPoint evaluate(double u, double v) const;
 
 private:
-    using Factory = OpenSubdiv::Bfr::RefinerSurfaceFactory<>;
     using Descriptor = OpenSubdiv::Bfr::Surface<double>::PointDescriptor;
 
     struct Coordinate {
@@ -52,7 +45,7 @@ private:
     };
     [[nodiscard]] Coordinate coordinate(double u, double v) const;
 
-    Factory factory_;
+    SurfaceMaker maker_;
     bool faceVarying_ = false;
     int size_ = 3;  // numbers a point
     std::span<const float> values_;

@@ -18,18 +18,31 @@ Bfr::SurfaceFactory::Options accurate() {
     return options;
 }
 
+constexpr std::size_t kMostRemembered = std::size_t{256} << 20U;  // bytes
+
 glm::dvec3 vec(const std::array<double, 3>& a) { return {a[0], a[1], a[2]}; }
 
 }  // namespace
 
+SurfaceMaker::SurfaceMaker(const Refiner& refiner) : refiner_(refiner) { factory_.emplace(refiner_, accurate()); }
+
+void SurfaceMaker::made(const Bfr::Surface<double>& surface) {
+    if (surface.IsRegular()) return;
+    bytes_ +=
+        sizeof(double) * static_cast<std::size_t>(surface.GetNumPatchPoints()) * static_cast<std::size_t>(surface.GetNumControlPoints());
+    if (bytes_ <= kMostRemembered) return;
+    factory_.emplace(refiner_, accurate());
+    bytes_ = 0;
+}
+
 LimitSurface::LimitSurface(const Refiner& refiner, std::span<const glm::vec3> points)
-    : factory_(refiner, accurate()), face_(std::numeric_limits<std::uint32_t>::max()) {
+    : maker_(refiner), face_(std::numeric_limits<std::uint32_t>::max()) {
     cagePoints_.reserve(3 * points.size());
     for (const glm::vec3& p : points) cagePoints_.insert(cagePoints_.end(), {p.x, p.y, p.z});
 }
 
 LimitSurface::LimitSurface(const Refiner& refiner, std::span<const glm::dvec3> points)
-    : factory_(refiner, accurate()), face_(std::numeric_limits<std::uint32_t>::max()) {
+    : maker_(refiner), face_(std::numeric_limits<std::uint32_t>::max()) {
     cagePoints_.reserve(3 * points.size());
     for (const glm::dvec3& p : points) cagePoints_.insert(cagePoints_.end(), {p.x, p.y, p.z});
 }
@@ -45,8 +58,9 @@ bool LimitSurface::setFace(std::uint32_t face, const CornerFrame& frame) {
     frame_ = frame;
     if (face == face_) return valid_;
     face_ = face;
-    valid_ = factory_.InitVertexSurface(static_cast<int>(face_), &surface_);
+    valid_ = maker_.factory().InitVertexSurface(static_cast<int>(face_), &surface_);
     if (!valid_) return false;
+    maker_.made(surface_);
     patchPoints_.resize(3 * static_cast<std::size_t>(surface_.GetNumPatchPoints()));
     surface_.PreparePatchPoints(cagePoints_.data(), PointDescriptor(3), patchPoints_.data(), PointDescriptor(3));
     return true;

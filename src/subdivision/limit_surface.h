@@ -6,6 +6,8 @@
 #include <glm/glm.hpp>
 
 #include <array>
+#include <cstddef>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -28,6 +30,26 @@ struct CornerFrame {
     std::uint32_t level = 0;     // 0: the face is the domain
     std::uint32_t u = 0, v = 0;  // the cell
     std::uint32_t turns = 0;     // of a quarter: the domain's corner k is the face's k + turns
+};
+
+// Bfr's factory, made anew before what it remembers takes too much memory: it keeps the coefficients of every irregular topology met, and
+// those of semi-sharp creases at a vertex of hundreds of faces are tens of megabytes a face.
+class SurfaceMaker {
+public:
+    using Factory = OpenSubdiv::Bfr::RefinerSurfaceFactory<>;
+
+    // `refiner` must stay.
+    explicit SurfaceMaker(const Refiner& refiner);
+
+    // To initialise a surface with.
+    [[nodiscard]] const Factory& factory() const { return *factory_; }
+    // Tells of one that was initialised; surfaces stay what they are.
+    void made(const OpenSubdiv::Bfr::Surface<double>& surface);
+
+private:
+    const Refiner& refiner_;
+    std::optional<Factory> factory_;
+    std::size_t bytes_ = 0;  // that are remembered, at most
 };
 
 class LimitSurface {
@@ -55,9 +77,7 @@ private:
     [[nodiscard]] std::array<double, 2> faceCoordinates(double u, double v) const;
     [[nodiscard]] LimitPoint turnedBack(LimitPoint p) const;
 
-    using Factory = OpenSubdiv::Bfr::RefinerSurfaceFactory<>;
-
-    Factory factory_;
+    SurfaceMaker maker_;
     std::vector<double> cagePoints_;
     OpenSubdiv::Bfr::Surface<double> surface_;
     std::vector<double> patchPoints_;

@@ -92,8 +92,13 @@ std::vector<CageReport> subdivide(Scene& scene, const SubdivisionOptions& option
     for (const Object& object : scene.objects) placed.insert(object.mesh);
     std::vector<CageReport> reports;
     MeshesOfCages made;
+    SubdivisionOptions own = options;
     for (const Cage& cage : scene.cages) {
-        reports.push_back(meshCage(cage, options, placed.contains(cage.name), made));
+        if (options.progress) {
+            const auto before = static_cast<double>(reports.size()), all = static_cast<double>(scene.cages.size());
+            own.progress = [&options, before, all](std::string_view stage, double part) { options.progress(stage, (before + part) / all); };
+        }
+        reports.push_back(meshCage(cage, own, placed.contains(cage.name), made));
         for (Mesh& mesh : made[cage.name]) {
             if (mesh.name != cage.name) mesh.name = freeName(mesh.name, names);
         }

@@ -28,7 +28,8 @@ Rows evaluate(const FaceRing& ring, std::span<const std::uint32_t> rowOf, std::u
     Rows rows;
     for (std::vector<double>& row : rows) row.assign(std::size_t{count} * tablePoints, 0.0);
     for (std::uint32_t point = 0; point < tablePoints; ++point) {
-        const auto& sums = face.at(point % sidePoints / (sidePoints - 1.0), point / sidePoints / (sidePoints - 1.0));
+        const std::uint32_t column = point % sidePoints, line = point / sidePoints;
+        const auto& sums = face.at(column / (sidePoints - 1.0), line / (sidePoints - 1.0));
         for (std::size_t d = 0; d < 3; ++d)
             for (std::size_t k = 0; k < rowOf.size(); ++k) rows[d][std::size_t{rowOf[k]} * tablePoints + point] += sums[d][k];
     }
@@ -85,7 +86,7 @@ float decayOf(const std::vector<double>& row) {
 }
 
 // Which points of a row a side's are.
-std::size_t sidePoint(std::uint32_t side, std::uint32_t t) {
+std::size_t sidePoint(std::uint32_t side, std::size_t t) {
     constexpr std::size_t last = sidePoints - 1;
     switch (side) {
         case 0:
@@ -112,8 +113,8 @@ RingTable makeRingTable(const FaceRing& ring, const Key& repeats, SymmetryClasse
     std::vector<float> line(std::size_t{table.rows} * sidePoints);
     for (std::uint32_t side = 0; side < 4; ++side) {
         classes.fillSide(ring, side, rowOf, line);
-        for (std::uint32_t row = 0; row < table.rows; ++row)
-            for (std::uint32_t t = 0; t < sidePoints; ++t)
+        for (std::size_t row = 0; row < table.rows; ++row)
+            for (std::size_t t = 0; t < sidePoints; ++t)
                 table.values[0][row * tablePoints + sidePoint(side, t)] = line[row * sidePoints + t];
     }
     return table;

@@ -201,8 +201,8 @@ std::vector<EdgeRings> leastReadings(const EdgeRings& rings) {
             add(rings.aroundEnd, rings.aroundEnd.own, step, true);
         }
     }
-    std::vector<Key> keys;
-    for (const EdgeRings& reading : readings) keys.push_back(keyOf(reading));
+    std::vector<Key> keys(readings.size());
+    std::transform(readings.begin(), readings.end(), keys.begin(), keyOf);
     const Key least = *std::min_element(keys.begin(), keys.end());
     std::vector<EdgeRings> out;
     for (std::size_t k = 0; k < keys.size(); ++k)
@@ -228,10 +228,11 @@ void SymmetryClasses::fillSide(const FaceRing& ring, std::uint32_t side, std::sp
     }
     for (const std::uint32_t end : {0U, 1U}) {
         const EdgeRings corner = leastReadings(cornerOf(ring, (side + end) % 4)).front();
+        const std::size_t point = end == 0 ? 0 : sidePoints - 1;
         const std::vector<std::uint32_t> cornerSlots = slotsOf(corner);
         const std::vector<float>& cornerCoefficients = values(corner);
         for (std::size_t slot = 0; slot < cornerSlots.size(); ++slot) sums.add(rowOf[cornerSlots[slot]], cornerCoefficients[slot]);
-        sums.finish([&](std::size_t row, float sum) { rows[row * sidePoints + end * (sidePoints - 1)] = sum; });
+        sums.finish([&](std::size_t row, float sum) { rows[row * sidePoints + point] = sum; });
     }
 }
 

@@ -238,7 +238,7 @@ std::uint32_t TableJob::chooseLevels(const TableOptions& options) {
     tableBuffers_.useDeviations(uploads_, store_);
     stageBuffers_.useRows(uploads_, stage);
     const table_run run = runOf(options);
-    const cl_uint most = static_cast<cl_uint>(mostLevel - more_);
+    const auto most = static_cast<cl_uint>(mostLevel - more_);
     session_.launch(
         session_.kernels.with("table_levels", run, view, most, tableBuffers_.infos(), tableBuffers_.deviations(), stageBuffers_.objects(),
                               stageBuffers_.faces(), stageBuffers_.byRow(), stageBuffers_.placed(), levels_.cl()),

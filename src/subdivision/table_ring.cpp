@@ -24,11 +24,11 @@ struct Spokes {
 Spoke across(const Level& level, Spoke at, int vertex, bool ahead) {
     const int edge = level.GetFaceEdges(at.face)[ahead ? (at.corner + 3) % 4 : at.corner];
     const auto faces = level.GetEdgeFaces(edge);
-    for (int k = 0; k < faces.size(); ++k) {
-        if (faces[k] == at.face) continue;
-        const auto vertices = level.GetFaceVertices(faces[k]), edges = level.GetFaceEdges(faces[k]);
+    for (const int face : faces) {
+        if (face == at.face) continue;
+        const auto vertices = level.GetFaceVertices(face), edges = level.GetFaceEdges(face);
         for (int c = 0; c < 4; ++c) {
-            if (vertices[c] == vertex && edges[ahead ? c : (c + 3) % 4] == edge) return {faces[k], c};
+            if (vertices[c] == vertex && edges[ahead ? c : (c + 3) % 4] == edge) return {face, c};
         }
     }
     return {-1, 0};

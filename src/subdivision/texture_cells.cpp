@@ -81,7 +81,10 @@ public:
             lower = glm::min(lower, glm::dvec2(value));
             upper = glm::max(upper, glm::dvec2(value));
         }
-        allowed_ = values.empty() ? 0.0 : tolerance * glm::length(upper - lower);
+        if (values.empty()) return;
+        // What single precision cannot hold is no reason to cut: all values may be one, and sums of weights are nearly 1.
+        const glm::dvec2 largest = glm::max(glm::abs(lower), glm::abs(upper));
+        allowed_ = std::max(tolerance * glm::length(upper - lower), std::numeric_limits<float>::epsilon() * std::max(largest.x, largest.y));
     }
 
     void add(Cell cell) {
