@@ -8,6 +8,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -81,7 +82,9 @@ TEST(TessellatorLimits, ASurfaceThatGrowsSeldomNeedsOtherBuffers) {
     }
     EXPECT_GT(before.sizes.vertices, 2 * first.vertices);
     EXPECT_GT(larger, 20);
-    EXPECT_LE(changes, 5);
+    // Each of the two buffers takes a quarter more than it needs; a new one may by chance be where the old one was.
+    const double growth = static_cast<double>(before.sizes.vertices) / static_cast<double>(first.vertices);
+    EXPECT_LE(changes, 2 * static_cast<int>(std::ceil(std::log(growth) / std::log(1.25))));
 }
 
 // A larger budget makes for larger chunks of patches, which take a part of what it gives more.
