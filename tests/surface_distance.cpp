@@ -1,3 +1,4 @@
+// How far meshes and surfaces lie apart, both ways, in double precision.
 #include "surface_distance.h"
 
 #include "patch_eval.h"
